@@ -131,7 +131,7 @@ contains
                     "theta(0) = theta_0", is_definition)
         call judged("pendulum", "theta = A cos(omega t)"//line_feed//"theta(0) = 1.0", &
                     is_definition)
-        call judged("pendulum", "theta(0) = theta", is_wrong)
+        call judged("pendulum", "theta(0) = theta", is_unreadable)
     end subroutine starts
 
     subroutine frequencies_as_numbers()

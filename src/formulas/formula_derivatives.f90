@@ -285,9 +285,11 @@ contains
         yes = .false.
         if (.not. allocated(symbols%rates)) return
         if (.not. next_is(reader, "(") .or. .not. reader%tokens%token(reader%at)%glued) return
-        if (.not. (any(name == ["L", "T", "V", "U", "E", "H"]) .or. &
-                   (symbols%find(name) > 1 .and. symbols%find(name) < 2 + 2*coordinates(symbols)))) &
-            return
+        at = symbols%find(name)
+        yes = any(name == ["L", "T", "V", "U", "E", "H"]) .or. &
+              (at > 1 .and. at < 2 + 2*coordinates(symbols))
+        if (.not. yes) return
+        yes = .false.
         do at = reader%at + 1, size(reader%tokens%token) - 1
             if (reader%tokens%word(at) == ")") then
                 yes = at > reader%at + 1

@@ -86,7 +86,9 @@ contains
         symbols = samples%symbols
         do i = 1, size(symbols%names)
             n = index(symbols%names(i), hidden)
-            if (n > 0) symbols%names(i) = symbols%names(i) (:n - 1)
+            if (n == 0) cycle
+            if (samples%symbols%find_definition(symbols%names(i) (:n - 1)) > 0) cycle
+            symbols%names(i) = symbols%names(i) (:n - 1)
         end do
     end function with_constants
 

@@ -15,6 +15,7 @@ module lagrangia_grading
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: new_samples
+    use lagrangia_motion_values, only: is_frequency_name
     use lagrangia_names, only: name_length
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
@@ -155,10 +156,12 @@ contains
                 if (index(side, "(") > 0) side = side(:index(side, "(") - 1)
                 place = samples%symbols%find(samples%symbols%spelling(side))
                 if (place < 2 .or. place > 1 + 2*samples%ndof) cycle
+                if (.not. occurs(plain_letters(text), "t") .and. index(text, "(0)") == 0) cycle
                 call unknown_names(text(equals + 1:), samples%symbols, names)
             end associate
             do k = 1, size(names)
                 if (has_place(samples, names(k)) .or. found == most_constants) cycle
+                if (is_frequency_name(names(k), samples)) cycle
                 call add_constant(trim(names(k)), .false., samples)
                 found = found + 1
             end do

@@ -73,8 +73,8 @@ contains
                 where (.not. ieee_is_finite(turns)) turns = 0.0_dp
                 do i = 1, n
                     if (any(motions%count == 0 .and. (abs(inertia(i, :, draw)) > 0.0_dp .or. &
-                            abs(stiffness(i, :, draw)) > 0.0_dp .or. abs(turns(i, :)) > 0.0_dp))) &
-                        cycle
+                            abs(stiffness(i, :, draw)) > 0.0_dp .or. abs(turns(i, :)) > &
+                                                      0.0_dp))) cycle
                     terms = inertia(i, :, draw)*rates(row, :, 3) + turns(i, :)*rates(row, :, 2) + &
                             stiffness(i, :, draw)*rates(row, :, 1)
                     if (.not. all(ieee_is_finite(terms)) .or. all(abs(terms) <= 0.0_dp)) cycle

@@ -120,8 +120,8 @@ contains
         at = index(remark, near)
         if (first == len(unknown) .or. at == 0) return
         length = index(remark(first:), "'") - 1
-        if (index(remark(at + len(near):), remark(first:first + length - 1)//"!") == 1) &
-            remark = remark(:at - 1)
+        if (index(remark(at + len(near):), remark(first:first + length - 1)//"!") /= 1) return
+        remark = remark(:at - 1)
     end subroutine drop_same_name
 
     subroutine judge_pair(left, right, chained, samples, library, explain, judgement)

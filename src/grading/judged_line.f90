@@ -4,7 +4,7 @@ module lagrangia_judged_line
     use lagrangia_characters, only: characters
     use lagrangia_constancy, only: explain_change, read_constancy
     use lagrangia_constants_of_motions, only: judge_on_motion
-    use lagrangia_declared_constants, only: with_constants
+    use lagrangia_declared_constants, only: has_place, with_constants
     use lagrangia_equality_signs, only: read_signs
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, whole
@@ -187,7 +187,7 @@ contains
             integer :: k
 
             call read_equals(text, signs)
-            do k = 2, size(signs)
+            do k = 2, merge(size(signs), 1, names_constant(error%message))
                 call parse_formula(repeat(" ", characters(text(:signs(k - 1))))// &
                                    as_in(text, signs(k - 1) + 1, signs(k) - 1), &
                                    with_constants(samples), side_there, there)
@@ -197,6 +197,18 @@ contains
             call put_unreadable(error, judgement)
             call solve_here()
         end subroutine solve_or_refuse
+
+        logical function names_constant(message)
+            !! Does it call a constant unknown?
+            character(*), intent(in) :: message
+            character(*), parameter :: unknown = "unknown name '"
+            integer :: from
+
+            from = index(message, unknown) + len(unknown)
+            names_constant = from > len(unknown)
+            if (names_constant) names_constant = &
+                has_place(samples, message(from:from + index(message(from:), "'") - 2))
+        end function names_constant
 
         subroutine solve_here()
             character(:), allocatable :: formula

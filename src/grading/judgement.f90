@@ -43,20 +43,22 @@ contains
         call put_partial("\frac{\partial L}{\partial t}", partial%text)
         call put_partial("\partial L/\partial t", partial%text)
         call judge_line(partial, samples, library, explain, judgement)
-        if (judgement%verdict == is_right .and. judgement%remark == another_equilibrium) &
-            call keep_equilibrium(judgement%residual, samples)
+        if (judgement%verdict == is_right) then
+            if (judgement%remark == another_equilibrium) call keep_equilibrium( &
+                judgement%residual, samples)
+        end if
         if (judgement%verdict == is_unreadable) call try_pairs(partial, samples, library, &
                                                                explain, judgement)
         do while (size(samples%kept_lines) < size(samples%kept_constants))
             samples%kept_lines = [samples%kept_lines, statement%line]
         end do
+        if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
+            partial, samples, library, explain, judgement)
         if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &
                                                                  judgement)
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
-        if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
-            partial, samples, library, explain, judgement)
         if (judgement%verdict /= is_wrong .or. .not. explain) return
         call say_constants(samples, judgement)
         ! dL/dt may be meant at rest, too
@@ -183,7 +185,7 @@ contains
                 ieee_value(1.0_dp, ieee_quiet_nan)
         end do
         call judge_line(statement, other, library, .false., attempt)
-        if (attempt%verdict == is_wrong .and. index(statement%text, "/d") > 0) then
+        if (attempt%verdict /= is_right .and. index(statement%text, "/d") > 0) then
             other%symbols%along_motion = .true.
             call judge_line(statement, other, library, .false., attempt)
         end if

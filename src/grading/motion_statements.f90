@@ -301,6 +301,7 @@ contains
         end do
         call holds(substituted(equation, places, put), values, yes, judged)
         is_one = judged
+        if (.not. yes .and. equation%depends_on(1)) is_one = .false.  ! without the drive, perhaps
         judgement%verdict = merge(is_right, is_wrong, yes)
         judgement%remark = ""
         if (.not. yes) judgement%remark = "it does not solve the equation of motion"

@@ -247,8 +247,8 @@ contains
                 if (samples%role(j) < role_parameter) moves = .true.
                 if (samples%symbols%find(trim(samples%symbols%names(j))//"_dot") == 0) cycle
                 moves = .true.
-                if (samples%symbols%find(trim(samples%symbols%names(j))//"_ddot") == 0) &
-                    has_second = .false.
+                has_second = has_second .and. &
+                             samples%symbols%find(trim(samples%symbols%names(j))//"_ddot") > 0
             end do
             call add(letter, role_parameter)
             if (.not. moves) return
