@@ -65,7 +65,7 @@ contains
         end associate
         judgement%verdict = merge(is_right, is_wrong, yes)
         judgement%remark = ""
-        if (.not. yes) judgement%remark = "the motion of the line before begins elsewhere"
+        if (.not. yes) judgement%remark = "the motion that a line writes out begins elsewhere"
     end subroutine judge_start
 
     subroutine keep_start(f, begun, known, samples)
