@@ -36,7 +36,8 @@ module test_docs_formulae
         "p_x = const", "T = 2 pi sqrt(l/g)", "=> x_ddot = g", "with D = ...", "Energy: E = T + V", &
         "x = l sin(theta), y = -l cos(theta)", "x' = x + s", "omega = theta_dot", &
         "theta_dot^2/2 = g/l cos(theta) + h", &
-        "g = 4 pi^2 l/T^2", "set: magnetic_z = 2", "dT/dx = -k x", "E = k A^2/2", &
+        "g = 4 pi^2 l/T^2", "set: magnetic_z = 2", "set: m1 = 1, m2 = 2", &
+        "dT/dx = -k x", "E = k A^2/2", &
         "x = x_0 + v_0 t + a t^2/2", "theta_eq = pi"]
     !! spans with '=' that state nothing about a system
 
