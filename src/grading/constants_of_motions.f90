@@ -1,9 +1,10 @@
 module lagrangia_constants_of_motions
     !! Statements with the constants of a motion that a line before writes out: `E = k A^2/2` behind
     !! `x = A cos(omega t + phi)`. They are judged on that motion.
+    use lagrangia_declared_constants, only: place_of_constant
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-)
-    use lagrangia_followed_letters, only: follow_letters
+    use lagrangia_followed_letters, only: follow_letters, is_rounding
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judged_equality, only: judge_forms
     use lagrangia_kinds, only: dp
@@ -115,6 +116,10 @@ contains
                 if (rate%count > 0) values(:, place) = values_of(rate, values)
             end do
         end do
+        do i = 1, size(samples%constants)  ! definitions have the same ones
+            place = place_of_constant(samples, samples%constants(i))
+            if (place > 0) values(:, place) = values(:, n + i)
+        end do
         call move_alloc(values, there%values)
         call move_alloc(elsewhere, there%elsewhere)
         do row = 1, size(there%values, 1)
@@ -124,7 +129,12 @@ contains
         call energy_formulas(there, formulas)
         energies = energy_places(there)
         do k = 1, 2
-            if (energies(k) > 0) there%values(:, energies(k)) = values_of(formulas(k), there%values)
+            if (energies(k) == 0) cycle
+            there%values(:, energies(k)) = values_of(formulas(k), there%values)
+            do row = 1, size(there%values, 1)  ! an energy of 0
+                if (.not. is_rounding(formulas(k), there%values(row, :))) cycle
+                there%values(row, energies(k)) = 0.0_dp
+            end do
         end do
     end subroutine put_on_motion
 end module lagrangia_constants_of_motions

@@ -8,7 +8,7 @@ module lagrangia_followed_letters
     use lagrangia_sampled_formula, only: evaluate_nodes
     implicit none (type, external)
     private
-    public :: follow_elsewhere, follow_letters
+    public :: follow_elsewhere, follow_letters, is_rounding
 
 contains
 
@@ -72,7 +72,7 @@ contains
     function is_rounding(formula, values) result(yes)
         !! Is its value no larger than the rounding errors of what is added up? What is conserved
         !! has the rate 0.
-        type(expression_t), intent(in) :: formula
+        type(expression_t), intent(in) :: formula  !! not empty
         real(dp), intent(in) :: values(:)          !! of the symbols
         logical :: yes
         real(dp), dimension(1, formula%count) :: results, sizes

@@ -5,7 +5,7 @@ module lagrangia_judgement
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_constants_of_motions, only: put_on_motion
     use lagrangia_derivative, only: time_derivative
-    use lagrangia_expression, only: expression_t
+    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol
     use lagrangia_homework, only: statement_t
     use lagrangia_judged_line, only: judge_line, read_equals
     use lagrangia_kinds, only: dp
@@ -13,6 +13,7 @@ module lagrangia_judgement
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: role_parameter, samples_t
     use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium
+    use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
     use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, &
@@ -56,6 +57,9 @@ contains
             partial, samples, library, explain, judgement)
         if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &
                                                                  judgement)
+        if (judgement%verdict == is_wrong) call try_choice(samples, judgement)
+        if (judgement%verdict == is_wrong) call try_positive_constants(partial, samples, library, &
+                                                                       judgement)
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
@@ -141,23 +145,18 @@ contains
     end subroutine try_along_motion
 
     subroutine try_fixed_motion(statement, samples, library, judgement)
-        !! Behind `x = 0.1 cos(20 t)` is `E = 1` about this motion.
+        !! Behind `x = 0.1 cos(20 t)` is `E = 1` about this motion, behind `x = A cos(omega t)` is
+        !! `x_dot = -omega x tan(omega t)`.
         type(statement_t), intent(in) :: statement      !! wrong of any motion
         type(samples_t), intent(in) :: samples          !! know the motion
         type(library_t), intent(in) :: library(:)       !! right terms
         type(judgement_t), intent(inout) :: judgement   !! of it
         type(judgement_t) :: attempt
         type(samples_t) :: there
-        integer :: i, k
+        integer :: k
 
         do k = 1, samples%ndof
             if (samples%motion(k)%count == 0 .or. .not. samples%exact_motion(k)) return
-            do i = 2, size(samples%role) + size(samples%constants)
-                if (.not. samples%motion(k)%depends_on(i)) cycle
-                if (i > size(samples%role)) return
-                if (samples%role(i) /= role_parameter .or. any(samples%kept_constants == i)) return
-                if (minval(samples%values(:, i)) < maxval(samples%values(:, i))) return
-            end do
         end do
         call put_on_motion(samples, there)
         call judge_line(statement, there, library, .false., attempt)
@@ -165,6 +164,61 @@ contains
         judgement = attempt
         judgement%remark = "of the motion of the line before"
     end subroutine try_fixed_motion
+
+    subroutine try_choice(samples, judgement)
+        !! `C2 = 0` chooses one motion of many.
+        type(samples_t), intent(inout) :: samples       !! know the constants and the motions
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(expression_t) :: chosen(1)
+        integer :: i, k, place
+
+        associate (residual => judgement%residual)
+            if (residual%count == 0) return
+            if (any([(residual%depends_on(i) .and. samples%role(i) /= role_parameter, &
+                      i=1, size(samples%role))])) return
+            do k = 1, size(samples%kept_constants)
+                place = samples%kept_constants(k)
+                if (residual%nodes(1)%kind /= kind_symbol) return
+                if (residual%nodes(1)%which /= place) cycle
+                if (residual%nodes(residual%count)%kind /= kind_difference .or. &
+                    residual%nodes(residual%count)%left /= 1) return
+                chosen(1) = residual%pruned(residual%nodes(residual%count)%right)
+                if (any([(chosen(1)%depends_on(i) .and. (samples%rate(i) > 0 .or. &
+                          any(samples%kept_constants == i)), i=1, size(samples%role))])) return
+                if (.not. any([(samples%motion(i)%depends_on(place), i=1, samples%ndof)])) return
+                do i = 1, samples%ndof
+                    if (samples%motion(i)%count > 0) samples%motion(i) = &
+                        substituted(samples%motion(i), [place], chosen)
+                end do
+                judgement%verdict = is_definition
+                judgement%remark = "a choice of one motion of many"
+                judgement%example = ""
+                return
+            end do
+        end associate
+    end subroutine try_choice
+
+    subroutine try_positive_constants(statement, samples, library, judgement)
+        !! `delta = atan(B/A)` is the phase where A is positive.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know the constants
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: other
+        integer :: row
+
+        if (size(samples%kept_constants) == 0) return
+        other = samples
+        do row = 1, size(other%values, 1)
+            if (any(other%values(row, samples%kept_constants) < 0.0_dp)) other%values(row, :) = &
+                ieee_value(1.0_dp, ieee_quiet_nan)
+        end do
+        call judge_line(statement, other, library, .false., attempt)
+        if (attempt%verdict /= is_right) return
+        judgement = attempt
+        if (judgement%remark == "") judgement%remark = "where the constants are positive"
+    end subroutine try_positive_constants
 
     subroutine try_positive(statement, samples, library, judgement)
         !! v may be the velocity where that is positive, `m dv/dt = -k x`, and not the speed.

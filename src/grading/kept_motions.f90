@@ -20,7 +20,8 @@ module lagrangia_kept_motions
 contains
 
     subroutine keep_motion(coordinate, order, f, samples)
-        !! Give the constants of `f` their values, if they have any. Amplitudes are positive.
+        !! Give the constants of `f` their values where it is the general motion. Amplitudes are
+        !! positive.
         integer, intent(in) :: coordinate           !! whose motion it is
         integer, intent(in) :: order                !! of the derivative that `f` is, 0 or 1
         type(expression_t), intent(inout) :: f      !! of the time; gets the names
@@ -28,13 +29,16 @@ contains
         type(expression_t) :: equations(0:2 - order), rate, names(size(samples%constants))
         real(dp), allocatable :: values(:, :)
         integer, allocatable :: found(:), places(:)
-        integer :: i, k, n
-        logical :: regular
+        integer :: i, k, kept, n
+        logical :: judged, regular, yes
 
         n = size(samples%role)
         found = pack([(i, i=1, size(samples%constants))], &
                      [(f%depends_on(n + i), i=1, size(samples%constants))])
-        if (size(found) == 0 .or. size(found) > size(equations)) return
+        ! as many as initial values, or else the states are not on this motion
+        kept = count([(f%depends_on(samples%kept_constants(i)), &
+                       i=1, size(samples%kept_constants))])
+        if (size(found) == 0 .or. size(found) + kept /= 2 - order) return
         do k = 1, size(found)
             if (.not. has_place(samples, samples%constants(found(k)))) return
             if (is_frequency_name(samples%constants(found(k)), samples)) return
@@ -49,6 +53,10 @@ contains
         places = n + found
         call solve_constants(equations(:size(found) - 1), places, values, regular)
         if (count(ieee_is_finite(values(:, places(1)))) < enough) return
+        do k = 0, size(equations) - 1
+            call holds(equations(k), values, yes, judged)
+            if (.not. yes) return
+        end do
         if (size(found) == 2) then
             call make_positive(equations, places(1), places(2), values)
             call make_positive(equations, places(2), places(1), values)

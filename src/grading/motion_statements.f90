@@ -9,7 +9,7 @@ module lagrangia_motion_statements
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
     use lagrangia_initial_conditions, only: judge_start
-    use lagrangia_joint_motions, only: go_together
+    use lagrangia_joint_motions, only: go_together, solve_exactly
     use lagrangia_kept_motions, only: keep_motion
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
@@ -104,6 +104,8 @@ contains
         if (solved .and. order == 0) then
             samples%motion(coordinate) = f
             samples%exact_motion(coordinate) = exact
+            if (.not. exact .and. samples%ndof > 1) exact = solve_exactly(samples, values)
+            if (exact .and. .not. samples%exact_motion(coordinate)) samples%exact_motion = .true.
         end if
         if (solved) judgement%example = ""
         unknown = ""

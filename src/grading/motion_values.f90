@@ -32,15 +32,20 @@ contains
     end subroutine draw_values
 
     subroutine put_frequencies(samples, first, values)
-        !! omega of one mode, and omega_1, omega_2 among the constants of all.
+        !! omega of the slowest mode that oscillates, and omega_1, omega_2 among the constants of
+        !! all.
         type(samples_t), intent(in) :: samples               !! know the modes
         integer, intent(in) :: first               !! the first mode about the equilibrium
         real(dp), intent(inout) :: values(:, :)    !! (draws*states, symbols and constants)
         character(:), allocatable :: name, stem
+        real(dp) :: omega2
         integer :: j, k, n, row, status
 
         do row = 1, size(values, 1)
-            associate (omega2 => samples%omega2(1 + (row - 1)/states, first))
+            associate (modes => samples%omega2(1 + (row - 1)/states, first:first + &
+                                               samples%ndof - 1))
+                k = findloc(modes > 0.0_dp, .true., 1)
+                omega2 = modes(max(1, k))
                 values(row, samples%frequency) = sqrt(omega2)
                 values(row, samples%frequency + 1) = omega2
             end associate

@@ -60,8 +60,9 @@ contains
     end function is_equilibrium
 
     subroutine keep_equilibrium(residual, samples)
-        !! Where there is one coordinate, the oscillations about the equilibrium that a line has
-        !! stated: \(M=\partial^2L/\partial\dot q^2\), \(K=-\partial^2L/\partial q^2\).
+        !! Where there is one coordinate and no other equilibrium, the oscillations about the one
+        !! that a line has stated: \(M=\partial^2L/\partial\dot q^2\),
+        !! \(K=-\partial^2L/\partial q^2\).
         type(expression_t), intent(in) :: residual  !! the place less its value
         type(samples_t), intent(inout) :: samples   !! get it as the other one
         type(expression_t), allocatable :: formulas(:)
@@ -70,6 +71,7 @@ contains
         integer :: draw, row
 
         if (samples%ndof /= 1) return
+        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)) return
         call energy_formulas(samples, formulas)
         inertia = derivative(derivative(formulas(1), 3), 3)
         stiffness = derivative(derivative(formulas(1), 2), 2)
