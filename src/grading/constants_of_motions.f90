@@ -34,7 +34,7 @@ contains
         type(judgement_t), intent(inout) :: judgement      !! of it
         character(name_length), allocatable :: names(:)
         type(samples_t) :: there
-        type(expression_t) :: left, right, residual
+        type(expression_t) :: left, nothing, right, residual
         type(error_t), allocatable :: error
         integer :: i, k, n
         logical :: its_own, nearly
@@ -81,6 +81,8 @@ contains
         end if
         call judge_forms(left, right, left_text//"="//right_text, .false., .false., there, &
                          library, explain, judgement)
+        judgement%residual = nothing  ! the constants are no symbols of the sheet
+        judgement%of_motion = .false.
     end subroutine judge_on_motion
 
     subroutine put_on_motion(samples, there)

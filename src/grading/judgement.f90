@@ -153,6 +153,7 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! of it
         type(judgement_t) :: attempt
         type(samples_t) :: there
+        type(expression_t) :: nothing
         integer :: k
 
         do k = 1, samples%ndof
@@ -162,6 +163,8 @@ contains
         call judge_line(statement, there, library, .false., attempt)
         if (attempt%verdict /= is_right .or. attempt%remark == "but for a constant") return
         judgement = attempt
+        judgement%residual = nothing  ! the constants are no symbols of the sheet
+        judgement%of_motion = .false.
         judgement%remark = "of the motion of the line before"
     end subroutine try_fixed_motion
 
