@@ -42,7 +42,7 @@ contains
                            "konstant", "C", "C1", "C_1", "C2", "C_2"])
         if (yes) yes = samples%symbols%find_definition(trim(word)) == 0 .and. &
                        samples%symbols%find(trim(word)) == 0 .and. &
-                   .not. any(samples%declared == word)
+                       .not. any(samples%declared == word)
     end function is_constant_word
 
     subroutine explain_change(text, samples, explanation, remark)

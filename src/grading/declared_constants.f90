@@ -5,12 +5,11 @@ module lagrangia_declared_constants
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_unknown_names, only: hidden
     implicit none (type, external)
     private
     public :: add_constant, has_place, keep_constant, place_of_constant, show_constants, &
               with_constants
-
-    character, parameter :: hidden = "!"  !! behind a name, so that no formula has it
 
 contains
 

@@ -2,14 +2,13 @@ module lagrangia_joint_motions
     !! Whether the motions of several coordinates, each of which solves the linearised equations,
     !! solve them together: in a mode the amplitudes have a ratio.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_derivative, only: derivative, time_derivative
-    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_expression, only: expression_t, whole
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: put_frequencies, rate_of, values_of
     use lagrangia_sample_names, only: samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
-    use lagrangia_written_out, only: energy_formulas, in_coordinates
+    use lagrangia_written_out, only: equation_of_motion
     implicit none (type, external)
     private
     public :: go_together, solve_exactly
@@ -96,10 +95,10 @@ contains
         type(samples_t), intent(in) :: samples    !! know the motions, L and the forces
         real(dp), intent(in) :: values(:, :)      !! of all symbols and constants
         logical :: yes
-        type(expression_t), allocatable :: formulas(:), put(:)
+        type(expression_t), allocatable :: put(:)
         type(expression_t) :: equation
         integer, allocatable :: places(:)
-        integer :: force, i, n, order
+        integer :: i, n, order
         logical :: judged
 
         n = samples%ndof
@@ -114,13 +113,8 @@ contains
                 if (put(order*n + i)%count == 0) put(order*n + i) = whole(0)
             end do
         end do
-        call energy_formulas(samples, formulas)
         do i = 1, n
-            equation = time_derivative(derivative(formulas(1), 1 + n + i), samples%rate, 1) - &
-                       derivative(formulas(1), 1 + i)
-            force = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + i)))
-            if (force > 0) equation = equation - in_coordinates( &
-                                      samples%symbols%definitions(force)%meaning, samples)
+            equation = equation_of_motion(i, samples)
             if (equation%count == 0) cycle
             call holds(equation, samples%values, yes, judged)
             if (.not. yes) return  ! other forces act

@@ -21,6 +21,7 @@ module lagrangia_judged_equality
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
     use lagrangia_term_search, only: library_t, part_text
+    use lagrangia_unknown_names, only: hidden
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, put_example
     implicit none (type, external)
     private
@@ -120,7 +121,7 @@ contains
         at = index(remark, near)
         if (first == len(unknown) .or. at == 0) return
         length = index(remark(first:), "'") - 1
-        if (index(remark(at + len(near):), remark(first:first + length - 1)//"!") /= 1) return
+        if (index(remark(at + len(near):), remark(first:first + length - 1)//hidden) /= 1) return
         remark = remark(:at - 1)
     end subroutine drop_same_name
 

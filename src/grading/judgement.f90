@@ -207,21 +207,39 @@ contains
         type(samples_t), intent(in) :: samples          !! know the constants
         type(library_t), intent(in) :: library(:)       !! right terms
         type(judgement_t), intent(inout) :: judgement   !! of it
-        type(judgement_t) :: attempt
         type(samples_t) :: other
-        integer :: row
 
         if (size(samples%kept_constants) == 0) return
         other = samples
-        do row = 1, size(other%values, 1)
-            if (any(other%values(row, samples%kept_constants) < 0.0_dp)) other%values(row, :) = &
-                ieee_value(1.0_dp, ieee_quiet_nan)
+        call leave_out(any(samples%values(:, samples%kept_constants) < 0.0_dp, 2), other)
+        call take_if_right(statement, other, library, "where the constants are positive", judgement)
+    end subroutine try_positive_constants
+
+    subroutine leave_out(rows, samples)
+        !! States at which nothing is a number.
+        logical, intent(in) :: rows(:)              !! (states)
+        type(samples_t), intent(inout) :: samples   !! lose these
+        integer :: row
+
+        do row = 1, size(rows)
+            if (rows(row)) samples%values(row, :) = ieee_value(1.0_dp, ieee_quiet_nan)
         end do
-        call judge_line(statement, other, library, .false., attempt)
+    end subroutine leave_out
+
+    subroutine take_if_right(statement, there, library, remark, judgement)
+        !! Another reading, if the line is right in it.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(inout) :: there         !! what it reads
+        type(library_t), intent(in) :: library(:)       !! right terms
+        character(*), intent(in) :: remark              !! which reading that is
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+
+        call judge_line(statement, there, library, .false., attempt)
         if (attempt%verdict /= is_right) return
         judgement = attempt
-        if (judgement%remark == "") judgement%remark = "where the constants are positive"
-    end subroutine try_positive_constants
+        if (judgement%remark == "") judgement%remark = remark
+    end subroutine take_if_right
 
     subroutine try_positive(statement, samples, library, judgement)
         !! v may be the velocity where that is positive, `m dv/dt = -k x`, and not the speed.
@@ -229,26 +247,18 @@ contains
         type(samples_t), intent(in) :: samples          !! know the speed
         type(library_t), intent(in) :: library(:)       !! right terms
         type(judgement_t), intent(inout) :: judgement   !! of it
-        type(judgement_t) :: attempt
+        character(*), parameter :: remark = "where v is positive"
         type(samples_t) :: other
-        integer :: row
 
         if (samples%ndof /= 1) return
         if (.not. (occurs(statement%text, "v") .or. occurs(statement%text, "dv"))) return
         if (.not. any(samples%usual%name == "v")) return
         other = samples
-        do row = 1, size(other%values, 1)
-            if (other%values(row, 3) < 0.0_dp) other%values(row, :) = &
-                ieee_value(1.0_dp, ieee_quiet_nan)
-        end do
-        call judge_line(statement, other, library, .false., attempt)
-        if (attempt%verdict /= is_right .and. index(statement%text, "/d") > 0) then
-            other%symbols%along_motion = .true.
-            call judge_line(statement, other, library, .false., attempt)
-        end if
-        if (attempt%verdict /= is_right) return
-        judgement = attempt
-        if (judgement%remark == "") judgement%remark = "where v is positive"
+        call leave_out(samples%values(:, 3) < 0.0_dp, other)
+        call take_if_right(statement, other, library, remark, judgement)
+        if (judgement%verdict == is_right .or. index(statement%text, "/d") == 0) return
+        other%symbols%along_motion = .true.
+        call take_if_right(statement, other, library, remark, judgement)
     end subroutine try_positive
 
     subroutine try_reduced(statement, samples, library, judgement)

@@ -2,7 +2,6 @@ module lagrangia_motion_statements
     !! A motion that is written out, `theta = A cos(omega t + phi)`: right if it solves the equation
     !! of motion, or the linearised one. Names that nobody knows are its constants.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, is_function_name, operator(*), operator(+), &
                                     operator(-), symbol, whole
@@ -23,7 +22,7 @@ module lagrangia_motion_statements
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
-    use lagrangia_written_out, only: energy_formulas
+    use lagrangia_written_out, only: equation_of_motion
     implicit none (type, external)
     private
     public :: judge_motion
@@ -266,8 +265,7 @@ contains
         logical, intent(out) :: is_one
         type(judgement_t), intent(inout) :: judgement
         type(expression_t) :: equation, put(3)
-        type(expression_t), allocatable :: formulas(:)  ! of L, with all letters written out
-        integer :: force, j, k, n, places(3)
+        integer :: j, k, n, places(3)
         logical :: judged, yes
 
         is_one = .false.
@@ -286,11 +284,7 @@ contains
             return
         end if
         if (order > 0 .or. samples%lagrangian%count == 0 .or. .not. allocated(samples%mass)) return
-        call energy_formulas(samples, formulas)
-        equation = time_derivative(derivative(formulas(1), 1 + n + coordinate), &
-                                   samples%rate, 1) - derivative(formulas(1), 1 + coordinate)
-        force = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + coordinate)))
-        if (force > 0) equation = equation - samples%symbols%definitions(force)%meaning
+        equation = equation_of_motion(coordinate, samples)
         call holds(equation, samples%values, yes, judged)
         if (.not. yes) return  ! other forces act
         places = 1 + coordinate + [0, n, 2*n]

@@ -8,6 +8,10 @@ module lagrangia_unknown_names
     implicit none (type, external)
     private
     public :: add_unknown, unknown_names
+    public :: hidden
+
+    character, parameter :: hidden = "!"
+    !! behind the name of a constant that no line has given a value, so that no formula has it
 
 contains
 
@@ -34,7 +38,7 @@ contains
             if (symbols%find(word) > 0 .or. symbols%find_definition(word) > 0) cycle
             if (is_function_name(word) .or. word == "pi") cycle
             if (word == "e" .and. tokens%word(min(i + 1, size(tokens%token))) == "^" .and. &
-                symbols%find("e!") == 0) cycle  ! no eccentricity behind `constant:`
+                symbols%find("e"//hidden) == 0) cycle  ! no eccentricity behind `constant:`
             if (len(word) > name_length .or. any(names == word)) cycle
             names = [character(name_length) :: names, word]
         end do

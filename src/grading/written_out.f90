@@ -7,7 +7,7 @@ module lagrangia_written_out
     use lagrangia_substitution, only: substituted
     implicit none (type, external)
     private
-    public :: energy_formulas, energy_places, in_coordinates, written_out
+    public :: energy_formulas, energy_places, equation_of_motion, in_coordinates, written_out
 
 contains
 
@@ -110,6 +110,22 @@ contains
             end associate
         end do
     end subroutine energy_formulas
+
+    function equation_of_motion(coordinate, samples) result(equation)
+        !! \(d/dt\,\partial L/\partial\dot q_i - \partial L/\partial q_i - Q_i\), which is 0.
+        integer, intent(in) :: coordinate         !! i
+        type(samples_t), intent(in) :: samples    !! know L, which is there, and the forces
+        type(expression_t) :: equation
+        type(expression_t), allocatable :: formulas(:)
+        integer :: force
+
+        call energy_formulas(samples, formulas)
+        equation = time_derivative(derivative(formulas(1), 1 + samples%ndof + coordinate), &
+                                   samples%rate, 1) - derivative(formulas(1), 1 + coordinate)
+        force = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + coordinate)))
+        if (force > 0) equation = equation - in_coordinates( &
+                                  samples%symbols%definitions(force)%meaning, samples)
+    end function equation_of_motion
 
     function with_letters(expression, samples, energies) result(e)
         !! The letters that move and their rates written out, from the last one on; and T and V.
