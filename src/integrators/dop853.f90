@@ -171,7 +171,7 @@ contains
         if (.not. system%is_projected) return
         associate (n => system%ndof)
             call end_step(system, t_old, self%y0(:n), self%y0(n + 1:), t, self%y(:n), &
-                                 self%y(n + 1:), self%failure_reason)
+                          self%y(n + 1:), self%failure_reason)
         end associate
     end subroutine keep
 

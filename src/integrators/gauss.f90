@@ -23,6 +23,7 @@ module lagrangia_gauss
     type, extends(integrator_t) :: gauss_t
         private
         type(gauss_stages_t) :: s
+        real(dp), allocatable :: q_old(:), v_old(:)  !! state before a step with constraints
         real(dp), allocatable :: weight(:)  !! 1/(accelerations that matter), squared
         integer :: unmeasured = 0          !! first sweeps of the next step, whose changes are large
     contains
@@ -53,6 +54,8 @@ contains
 
         call self%s%prepare(system%ndof)
         self%weight = self%s%v
+        self%q_old = self%s%v
+        self%v_old = self%s%v
         self%unmeasured = 0
         self%coordinates = system%ndof
         self%evaluations = 0
@@ -83,7 +86,6 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         integer :: sweeps
         logical :: good
@@ -95,8 +97,8 @@ contains
         self%s%v(:) = v
         do k = first, first + steps - 1
             if (system%is_projected) then
-                q_old = self%s%q
-                v_old = self%s%v
+                self%q_old(:) = self%s%q
+                self%v_old(:) = self%s%v
             end if
             call self%s%guess(t0 + k*dt, dt)
             call solve(self%s, system, self%unmeasured, self%weight, sweeps, good)
@@ -107,9 +109,9 @@ contains
             call self%s%reach(fully=.true.)
             call self%s%finish()
             if (.not. good) exit
-            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
-                                                          t0 + (k + 1)*dt, self%s%q, self%s%v, &
-                                                          self%failure_reason)
+            if (system%is_projected) call end_step(system, t0 + k*dt, self%q_old, self%v_old, &
+                                                   t0 + (k + 1)*dt, self%s%q, self%s%v, &
+                                                   self%failure_reason)
         end do
         q = self%s%q
         v = self%s%v

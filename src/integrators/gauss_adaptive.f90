@@ -192,11 +192,10 @@ contains
     end subroutine take_back
 
     pure subroutine take_step(self, system, good)
-        !! One accepted step, or none: then `good` is false.
+        !! One accepted step from the state that `inside` keeps, or none: then `good` is false.
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         logical, intent(out) :: good
-        real(dp), dimension(self%s%n) :: q_old, v_old
         real(dp) :: h, to, ratio, grow
         integer :: sweeps
         logical :: cut
@@ -231,15 +230,13 @@ contains
                 self%evaluations = self%evaluations + 1
             end if
         end do
-        q_old = self%s%q
-        v_old = self%s%v
         call self%s%finish()
         if (system%is_projected) then
-            call end_step(system, self%t_new, q_old, v_old, to, self%s%q, self%s%v, &
-                                 self%failure_reason)
+            call end_step(system, self%t_new, self%inside%q_old, self%inside%v_old, to, &
+                          self%s%q, self%s%v, self%failure_reason)
             good = all(ieee_is_finite(self%s%q))
             if (.not. good) then
-                call self%s%place(system, self%t_new, q_old, v_old)
+                call self%s%place(system, self%t_new, self%inside%q_old, self%inside%v_old)
                 self%evaluations = self%evaluations + 1
                 return
             end if

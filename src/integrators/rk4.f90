@@ -19,6 +19,7 @@ module lagrangia_rk4
         real(dp), allocatable :: q(:)                     !! coordinates of a stage
         real(dp), allocatable :: v2(:), v3(:), v4(:)      !! velocities of the stages
         real(dp), allocatable :: a1(:), a2(:), a3(:), a4(:)
+        real(dp), allocatable :: q_old(:), v_old(:)       !! state before a step with constraints
     contains
         procedure :: prepare
         procedure :: advance
@@ -83,6 +84,8 @@ contains
         self%a2 = state
         self%a3 = state
         self%a4 = state
+        self%q_old = state
+        self%v_old = state
     end subroutine prepare
 
     pure subroutine prepare_compensated(self, system, error)
@@ -163,7 +166,6 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         logical :: refused
 
@@ -171,15 +173,14 @@ contains
         if (refused) return
         do k = first, first + steps - 1
             if (system%is_projected) then
-                q_old = q
-                v_old = v
+                self%q_old(:) = q
+                self%v_old(:) = v
             end if
             call stages(self, system, t0 + k*dt, dt, q, v)
             call finish(system%ndof, dt/6.0_dp, v, self%v2, self%v3, self%v4, q)
             call finish(system%ndof, dt/6.0_dp, self%a1, self%a2, self%a3, self%a4, v)
-            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
-                                                          t0 + (k + 1)*dt, q, v, &
-                                                          self%failure_reason)
+            if (system%is_projected) call end_step(system, t0 + k*dt, self%q_old, self%v_old, &
+                                                   t0 + (k + 1)*dt, q, v, self%failure_reason)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance
@@ -191,7 +192,6 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         logical :: refused
 
@@ -199,16 +199,15 @@ contains
         if (refused) return
         do k = first, first + steps - 1
             if (system%is_projected) then
-                q_old = q
-                v_old = v
+                self%q_old(:) = q
+                self%v_old(:) = v
             end if
             call stages(self, system, t0 + k*dt, dt, q, v)
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
                           dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
-            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
-                                                          t0 + (k + 1)*dt, q, v, &
-                                                          self%failure_reason)
+            if (system%is_projected) call end_step(system, t0 + k*dt, self%q_old, self%v_old, &
+                                                   t0 + (k + 1)*dt, q, v, self%failure_reason)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance_compensated

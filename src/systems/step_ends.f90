@@ -1,7 +1,6 @@
 module lagrangia_step_ends
     !! How a step of a method ends on the constraints beside L, and where it cannot.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_bound_system, only: bound_system_t
     use lagrangia_description, only: line_length
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -31,20 +30,15 @@ contains
         real(dp), parameter :: far = 0.25_dp, slight = 1e-6_dp
         real(dp), dimension(self%ndof) :: q_new, v_new, q_middle, weights
         real(dp), dimension(self%constraints, self%ndof) :: left, middle, right
-        real(dp) :: h, s, mass(self%ndof, self%ndof), part
-        integer :: i, k
+        real(dp) :: h, s, part
+        integer :: k
 
         q_new = q
         v_new = v
         call self%keep_constraints(t, q, v)
         if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) return
         h = t - t_old
-        mass = 1.0_dp
-        select type (self)
-        class is (bound_system_t)
-            call self%mass_matrix(t, q, v, mass)
-        end select
-        weights = [(abs(mass(i, i)), i=1, self%ndof)]
+        call inertias_at(self, t, q, v, weights)
         if (length(q - q_new) + abs(h)*length(v - v_new) > slight*length(q) + &
             far*(length(q - q_old) + abs(h)*max(length(v_old), length(v)))) then
             reason = "its end is far from the constraints: the step is too long, or they end there"
@@ -97,6 +91,24 @@ contains
                       + s*(1.0_dp - s)*h*((1.0_dp - s)*v_old - s*v)
         end subroutine cubic
     end subroutine end_step
+
+    pure subroutine inertias_at(self, t, q, v, inertias)
+        !! \(|\partial^2 L/\partial\dot q_i^2|\), of which lengths are made.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(out) :: inertias(:)
+        type(hyperdual_t) :: qq(self%ndof), vv(self%ndof), l
+        integer :: i
+
+        qq%re = q
+        vv%re = v
+        do i = 1, self%ndof
+            vv(i) = hyperdual_t(v(i), d1=1.0_dp, d2=1.0_dp)
+            l = self%lagrangian(hyperdual_t(re=t), qq, vv)
+            inertias(i) = abs(l%d12)
+            vv(i) = hyperdual_t(v(i))
+        end do
+    end subroutine inertias_at
 
     pure subroutine rows_at(self, t, q, rows)
         !! \(A\) alone.
