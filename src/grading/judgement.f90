@@ -12,7 +12,7 @@ module lagrangia_judgement
     use lagrangia_motion_values, only: values_of
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: role_parameter, samples_t
-    use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium
+    use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium, keep_origin
     use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -37,6 +37,7 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(statement_t) :: partial
         type(judgement_t) :: attempt
+        integer :: which
         logical :: total
 
         partial = statement
@@ -47,6 +48,10 @@ contains
         if (judgement%verdict == is_right) then
             if (judgement%remark == another_equilibrium) call keep_equilibrium( &
                 judgement%residual, samples)
+        end if
+        if (judgement%verdict == is_definition .and. .not. statement%small) then
+            which = samples%symbols%find_definition(judgement%defines)
+            if (which > 0) call keep_origin(samples%symbols%definitions(which)%meaning, samples)
         end if
         if (judgement%verdict == is_unreadable) call try_pairs(partial, samples, library, &
                                                                explain, judgement)

@@ -4,7 +4,8 @@ module lagrangia_small_judgement
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
-    use lagrangia_sample_names, only: samples_t, states
+    use lagrangia_mode_samples, only: put_places
+    use lagrangia_sample_names, only: role_acceleration, role_time, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
@@ -43,7 +44,8 @@ contains
             return
         end if
         call compare(.true., .false.)
-        about_other = judged .and. speaks_of_place(judgement%residual, samples)
+        about_other = judged .and. (speaks_of_place(judgement%residual, samples) .or. &
+                                    (is_zero_at_rest(.true.) .and. .not. is_zero_at_rest(.false.)))
         if (.not. right_one) call compare(.false., .false.)
         if (right_one) then
             k = order_that_fails(left, right, samples, shown)
@@ -91,6 +93,20 @@ contains
                               judgement%remark)
             if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
         end subroutine compare
+
+        logical function is_zero_at_rest(other)
+            !! At one equilibrium.
+            logical, intent(in) :: other
+            real(dp) :: rest(size(samples%values, 1), size(samples%role))
+            logical :: any_number
+
+            rest = samples%values
+            where (spread(samples%role > role_time .and. samples%role <= role_acceleration, 1, &
+                          size(rest, 1))) rest = 0.0_dp
+            if (other) call put_places(samples, samples%other_equilibrium, rest)
+            rest(:, 2:1 + samples%ndof) = rest(:, samples%place)
+            call holds(judgement%residual, rest, is_zero_at_rest, any_number)
+        end function is_zero_at_rest
     end subroutine judge_small
 
     subroutine judge_energies(left, right, first, samples, library, explain, judgement)
@@ -143,6 +159,11 @@ contains
                     shown, without_accelerations(library, samples), explanation)
                 if (.not. explanation%is_empty()) explanation%text = explanation%text// &
                     ", if the coordinates are counted from the equilibrium"
+            end if
+            if (explanation%is_empty() .and. .not. about_other) then
+                call compare(.true., .false.)
+                if (agreement%judged) call explain_slip(judgement%residual, first, samples, &
+                    shown, without_accelerations(library, samples), explanation)
             end if
             if (explanation%is_empty()) then
                 shown = samples%values

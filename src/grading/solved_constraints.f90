@@ -1,6 +1,7 @@
 module lagrangia_solved_constraints
     !! A constraint that brings in a place which the system does not name: of `x + y + pi R = l`,
     !! the length of a string, y.
+    use lagrangia_canonical_form, only: simplified
     use lagrangia_declared_constants, only: with_constants
     use lagrangia_derivative, only: derivative
     use lagrangia_errors, only: error_t
@@ -63,6 +64,6 @@ contains
         rest = substituted(rest, [place], zero)
         if (nodes(1, slope%count) > 0.0_dp) rest = zero(1) - rest
         name = trim(new(1))
-        formula = formula_text(rest, symbols)
+        formula = formula_text(simplified(rest, symbols), symbols)
     end subroutine solve_constraint
 end module lagrangia_solved_constraints

@@ -1,15 +1,19 @@
 module lagrangia_stated_equilibria
-    !! `theta_eq = pi`: an equilibrium beside those that `modes` shows.
+    !! `theta_eq = pi`, and `theta = pi + u`: an equilibrium beside those that `modes` shows.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: derivative
+    use lagrangia_eigen, only: normal_modes
+    use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(+)
     use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
-    public :: another_equilibrium, is_equilibrium, keep_equilibrium
+    public :: another_equilibrium, is_equilibrium, keep_equilibrium, keep_origin
 
     character(*), parameter :: another_equilibrium = "another equilibrium than that at or near zero"
     !! what is said of one
@@ -18,79 +22,212 @@ contains
 
     function is_equilibrium(left, right, samples) result(yes)
         !! A place alone on the left side, and on the right one where no force acts at rest: all
-        !! \(\partial L/\partial q_j+Q_j=0\), the other coordinates at their equilibrium.
+        !! \(\partial L/\partial q_j+Q_j=0\), with places for the other coordinates.
         type(expression_t), intent(in) :: left, right  !! both sides
         type(samples_t), intent(in) :: samples         !! know L and the forces
         logical :: yes
-        type(expression_t), allocatable :: formulas(:)
-        type(expression_t) :: force
         real(dp), allocatable :: values(:, :)
-        integer :: j, n, place, which
-        logical :: judged
+        integer :: coordinate, j
 
-        n = samples%ndof
         yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol .and. &
               samples%lagrangian%count > 0
         if (.not. yes) return
-        place = findloc(samples%place, left%nodes(1)%which, 1)
-        yes = place > 0 .and. .not. any([(right%depends_on(j), j=1, 1 + 3*n)])
-        if (.not. yes) return
-        values = samples%values
-        values(:, 2:n + 1) = values(:, samples%place)
-        values(:, place + 1) = values_of(right, values)
-        values(:, n + 2:3*n + 1) = 0.0_dp
-        call energy_formulas(samples, formulas)
-        do j = 1, n
-            force = derivative(formulas(1), 1 + j)
-            which = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + j)))
-            if (which > 0) then
-                associate (beside => samples%symbols%definitions(which)%meaning)
-                    if (force%count == 0) then
-                        force = in_coordinates(beside, samples)
-                    else
-                        force = force + in_coordinates(beside, samples)
-                    end if
-                end associate
-            end if
-            if (force%count == 0) cycle
-            call holds(force, values, yes, judged)
-            yes = yes .and. judged
-            if (.not. yes) return
-        end do
+        coordinate = findloc(samples%place, left%nodes(1)%which, 1)
+        yes = coordinate > 0 .and. .not. any([(right%depends_on(j), j=1, 1 + 3*samples%ndof)])
+        if (yes) call find_rest(coordinate, values_of(right, samples%values), samples, values, yes)
     end function is_equilibrium
 
     subroutine keep_equilibrium(residual, samples)
-        !! Where there is one coordinate and no other equilibrium, the oscillations about the one
-        !! that a line has stated: \(M=\partial^2L/\partial\dot q^2\),
-        !! \(K=-\partial^2L/\partial q^2\).
+        !! The oscillations about an equilibrium that a line has stated, where no other one beside
+        !! the first is known.
         type(expression_t), intent(in) :: residual  !! the place less its value
         type(samples_t), intent(inout) :: samples   !! get it as the other one
-        type(expression_t), allocatable :: formulas(:)
-        type(expression_t) :: inertia, stiffness
-        real(dp), allocatable :: values(:, :), m(:), k(:)
-        integer :: draw, row
+        real(dp), allocatable :: values(:, :)
+        integer :: coordinate
+        logical :: found
 
-        if (samples%ndof /= 1) return
-        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)) return
-        call energy_formulas(samples, formulas)
-        inertia = derivative(derivative(formulas(1), 3), 3)
-        stiffness = derivative(derivative(formulas(1), 2), 2)
-        if (inertia%count == 0 .or. stiffness%count == 0) return
-        values = samples%values
-        values(:, samples%place(1)) = 0.0_dp
-        values(:, 2) = -values_of(residual, values)
-        values(:, 3) = 0.0_dp
-        m = values_of(inertia, values)
-        k = -values_of(stiffness, values)
-        do draw = 1, draws
-            row = (draw - 1)*states + 1
-            samples%other_equilibrium(1, draw) = values(row, 2)
-            samples%other_inertia(1, 1, draw) = m(row)
-            samples%other_stiffness(1, 1, draw) = k(row)
-            samples%other_turning(1, 1, draw) = samples%turning(1, 1, draw)
-            samples%omega2(draw, 2) = k(row)/m(row)
-            if (samples%decay > 0) samples%omega2(draw, 2) = samples%omega2(draw, 2) - &
-                (samples%turning(1, 1, draw)/(2.0_dp*m(row)))**2
+        do coordinate = 1, samples%ndof
+            if (.not. residual%depends_on(samples%place(coordinate))) cycle
+            values = samples%values
+            values(:, samples%place(coordinate)) = 0.0_dp
+            call find_rest(coordinate, -values_of(residual, values), samples, values, found)
+            if (found) call keep(values, samples)
+            return
         end do
     end subroutine keep_equilibrium
+
+    subroutine keep_origin(meaning, samples)
+        !! The same where a name counts a coordinate from there: \(u = c\,(q - q_0)\).
+        type(expression_t), intent(in) :: meaning  !! u, in coordinates
+        type(samples_t), intent(inout) :: samples  !! get the equilibrium as the other one
+        type(expression_t) :: slope
+        real(dp), allocatable :: values(:, :), there(:), slopes(:)
+        integer :: coordinate, j, n
+        logical :: found
+
+        n = samples%ndof
+        if (samples%lagrangian%count == 0) return
+        if (count([(meaning%depends_on(j), j=1, 1 + 3*n)]) /= 1) return
+        do coordinate = 1, n
+            if (.not. meaning%depends_on(1 + coordinate)) cycle
+            slope = derivative(meaning, 1 + coordinate)
+            if (any([(slope%depends_on(j), j=1, 1 + 3*n)])) return
+            values = samples%values
+            values(:, 1 + coordinate) = 0.0_dp
+            slopes = values_of(slope, values)
+            if (any(abs(slopes) <= 0.0_dp)) return
+            there = -values_of(meaning, values)/slopes
+            if (all(abs(there) <= 0.0_dp)) return
+            call find_rest(coordinate, there, samples, values, found)
+            if (found) call keep(values, samples)
+            return
+        end do
+    end subroutine keep_origin
+
+    subroutine find_rest(coordinate, there, samples, values, found)
+        !! States at rest with one coordinate given; the others go from their known equilibrium to
+        !! where no force acts on them, by Newton's method. Is there none on the given one then?
+        integer, intent(in) :: coordinate                    !! which is given
+        real(dp), intent(in) :: there(:)                     !! where, (draws*states)
+        type(samples_t), intent(in) :: samples               !! know L and the forces
+        real(dp), allocatable, intent(out) :: values(:, :)   !! (draws*states, symbols)
+        logical, intent(out) :: found                        !! there is an equilibrium
+        integer, parameter :: most = 30
+        type(expression_t) :: force(samples%ndof), slope(samples%ndof, samples%ndof)
+        real(dp), dimension(size(there), samples%ndof) :: forces, changes
+        real(dp) :: slopes(size(there), samples%ndof, samples%ndof)
+        real(dp) :: sizes(size(there)), change(samples%ndof - 1)
+        type(error_t), allocatable :: error
+        integer, allocatable :: others(:)
+        integer :: i, j, n, pass, row
+        logical :: judged
+
+        n = samples%ndof
+        values = samples%values
+        values(:, 2:n + 1) = values(:, samples%place)
+        values(:, coordinate + 1) = there
+        values(:, n + 2:3*n + 1) = 0.0_dp
+        call forces_at_rest(samples, force)
+        others = pack([(j, j=1, n)], [(j, j=1, n)] /= coordinate)
+        do j = 1, n
+            do i = 1, n
+                if (force(j)%count > 0) slope(j, i) = derivative(force(j), 1 + i)
+            end do
+        end do
+        do pass = 1, most
+            if (n == 1) exit
+            do j = 1, n
+                forces(:, j) = value(force(j), values)
+                do i = 1, n
+                    slopes(:, j, i) = value(slope(j, i), values)
+                end do
+            end do
+            changes = 0.0_dp
+            do row = 1, size(there)
+                call solve_linear(slopes(row, others, others), -forces(row, others), change, error)
+                found = .not. allocated(error)
+                if (.not. found) return
+                changes(row, others) = change
+            end do
+            values(:, 2:n + 1) = values(:, 2:n + 1) + changes
+            sizes = maxval(abs(values(:, 2:n + 1)), 2)
+            if (all(maxval(abs(changes), 2) <= 4*epsilon(1.0_dp)*sizes)) exit
+        end do
+        found = all(ieee_is_finite(values(:, 2:n + 1)))
+        do j = 1, n
+            if (.not. found) return
+            if (force(j)%count == 0) cycle
+            call holds(force(j), values, found, judged)
+            found = found .and. judged
+        end do
+    end subroutine find_rest
+
+    subroutine forces_at_rest(samples, force)
+        !! \(\partial L/\partial q_j+Q_j\); without nodes where there is none.
+        type(samples_t), intent(in) :: samples    !! know L and the forces
+        type(expression_t), intent(out) :: force(:)
+        type(expression_t), allocatable :: formulas(:)
+        integer :: j, which
+
+        call energy_formulas(samples, formulas)
+        do j = 1, samples%ndof
+            force(j) = derivative(formulas(1), 1 + j)
+            which = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + j)))
+            if (which == 0) cycle
+            associate (beside => samples%symbols%definitions(which)%meaning)
+                if (force(j)%count == 0) then
+                    force(j) = in_coordinates(beside, samples)
+                else
+                    force(j) = force(j) + in_coordinates(beside, samples)
+                end if
+            end associate
+        end do
+    end subroutine forces_at_rest
+
+    subroutine keep(values, samples)
+        !! The linearised equations there, \(M=\partial^2L/\partial\dot q^2\),
+        !! \(K_{ij}=-\partial F_i/\partial q_j\), \(B_{ij}=\partial^2L/\partial\dot q_i\partial q_j-
+        !! \partial^2L/\partial q_i\partial\dot q_j-\partial Q_i/\partial\dot q_j\), F and Q the
+        !! forces; and \(\omega^2\), of several coordinates where B is 0 and K symmetric.
+        real(dp), intent(in) :: values(:, :)        !! states at rest there
+        type(samples_t), intent(inout) :: samples   !! get it as the other equilibrium
+        type(expression_t), allocatable :: formulas(:)
+        type(expression_t) :: force(samples%ndof), momentum
+        real(dp), dimension(draws, samples%ndof, samples%ndof) :: m, b, k
+        real(dp), allocatable :: omega2(:), modes(:, :)
+        real(dp) :: at(draws, size(values, 2))
+        type(error_t), allocatable :: error
+        integer :: draw, i, j, n
+
+        n = samples%ndof
+        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)) return
+        at = values(::states, :)
+        if (all(abs(at(:, 2:n + 1) - transpose(samples%equilibrium)) <= &
+                1e-12_dp*(1.0_dp + abs(at(:, 2:n + 1))))) return
+        call energy_formulas(samples, formulas)
+        call forces_at_rest(samples, force)
+        do i = 1, n
+            momentum = derivative(formulas(1), 1 + n + i)
+            do j = 1, n
+                m(:, i, j) = slope_of(momentum, 1 + n + j)
+                k(:, i, j) = -slope_of(force(i), 1 + j)
+                b(:, i, j) = slope_of(momentum, 1 + j) - slope_of(force(i), 1 + n + j)
+            end do
+        end do
+        do draw = 1, draws
+            samples%other_equilibrium(:, draw) = at(draw, 2:n + 1)
+            samples%other_inertia(:, :, draw) = m(draw, :, :)
+            samples%other_stiffness(:, :, draw) = k(draw, :, :)
+            samples%other_turning(:, :, draw) = b(draw, :, :)
+            samples%omega2(draw, n + 1:) = 0.0_dp
+            if (n == 1) then
+                samples%omega2(draw, 2) = k(draw, 1, 1)/m(draw, 1, 1)
+                if (samples%decay > 0) samples%omega2(draw, 2) = samples%omega2(draw, 2) - &
+                    (b(draw, 1, 1)/(2.0_dp*m(draw, 1, 1)))**2
+            else if (all(abs(b(draw, :, :)) <= 0.0_dp)) then
+                call normal_modes(k(draw, :, :), m(draw, :, :), omega2, modes, error)
+                if (.not. allocated(error)) samples%omega2(draw, n + 1:) = omega2
+            end if
+        end do
+    contains
+        function slope_of(formula, symbol) result(slopes)
+            !! Its derivative there; 0 where it has no nodes.
+            type(expression_t), intent(in) :: formula
+            integer, intent(in) :: symbol
+            real(dp) :: slopes(draws)
+
+            slopes = 0.0_dp
+            if (formula%count > 0) slopes = value(derivative(formula, symbol), at)
+        end function slope_of
+    end subroutine keep
+
+    function value(formula, values)
+        !! 0 where it has no nodes.
+        type(expression_t), intent(in) :: formula
+        real(dp), intent(in) :: values(:, :)
+        real(dp) :: value(size(values, 1))
+
+        value = 0.0_dp
+        if (formula%count > 0) value = values_of(formula, values)
+    end function value
 end module lagrangia_stated_equilibria
