@@ -69,16 +69,18 @@ contains
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps  !! how many of how many
         integer(i8) :: now
-        real(dp) :: seconds
+        real(dp) :: seconds, whole
 
         call system_clock(now)
         seconds = real(now - self%start, dp)/real(self%rate, dp)
         if (seconds < self%next) return
         if (.not. self%terminal) then
             if (done < 1) return
+            self%next = 2.0_dp*seconds  ! it may get slower
+            whole = seconds*(real(steps, dp)/real(done, dp))
+            if (whole < long) return
+            call note(self%label//" takes about "//about(whole))
             self%next = huge(patience)
-            if (seconds*(real(steps, dp)/real(done, dp)) >= long) call note(self%label// &
-                " takes about "//about(seconds*(real(steps, dp)/real(done, dp))))
             return
         end if
         self%next = seconds + interval

@@ -7,24 +7,28 @@ module lagrangia_grading
     use lagrangia_description, only: description_t
     use lagrangia_determined_accelerations, only: find_determined
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, kind_number
+    use lagrangia_expression, only: expression_t, kind_number, symbol
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
     use lagrangia_judged_sheet, only: judge_sheet
-    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judgement_t
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
+                                   is_wrong, judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: new_samples
+    use lagrangia_motion_starts, only: begin_there
     use lagrangia_motion_values, only: is_frequency_name
     use lagrangia_names, only: name_length
     use lagrangia_parameter_choice, only: occurs
-    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sample_names, only: role_acceleration, samples_t
     use lagrangia_sampled_formula, only: summands
+    use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_symbols, only: check_name
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     use lagrangia_unknown_names, only: unknown_names
+    use lagrangia_verdict, only: but_for_constant
     implicit none (type, external)
     private
     public :: grade_t
@@ -91,10 +95,65 @@ contains
                 insisted = insisted(:size(insisted) - 1)
             end if
         end do
+        call take_from_start(homework, system, d, insisted, samples, library, result%of)
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result%of, result%equations, result%determined)
     end subroutine grade
+
+    subroutine take_from_start(homework, system, d, insisted, samples, library, result)
+        !! What is wrong of all motions may be right of the one that begins as lines of the sheet
+        !! say. Equations of motion are those of all motions, and so are L and small oscillations.
+        type(homework_t), intent(in) :: homework
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        type(word_t), intent(in) :: insisted(:)
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        type(judgement_t), intent(inout) :: result(:)  !! of each statement
+        type(samples_t) :: there
+        type(judgement_t), allocatable :: attempt(:)
+        logical :: found, one_energy
+        integer :: i
+
+        if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
+                      result%verdict == is_unreadable)) return
+        call begin_there(homework, system, samples, there, found)
+        if (.not. found) return
+        one_energy = samples%symbols%find("E") > 0
+        if (one_energy) one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), &
+                                                              there)
+        call judge_sheet(homework, d, insisted, there, library, attempt)
+        do i = 1, size(result)
+            if (homework%statements(i)%small) cycle
+            if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) cycle
+            if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
+                result(i) = attempt(i)
+                cycle
+            end if
+            if (attempt(i)%verdict /= is_right) cycle
+            ! on one motion E is any number, but for a constant
+            if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
+            if (speaks_of_all(result(i)%residual, samples)) cycle
+            result(i) = attempt(i)
+            result(i)%remark = "of the motion that begins so"
+        end do
+    end subroutine take_from_start
+
+    pure function speaks_of_all(residual, samples) result(yes)
+        !! Has it accelerations, L or its derivatives?
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        do k = 1, size(samples%role)
+            if (.not. residual%depends_on(k)) cycle
+            yes = yes .or. samples%role(k) == role_acceleration .or. &
+                  samples%symbols%names(k) == "L" .or. index(samples%symbols%names(k), "dL_") > 0
+        end do
+    end function speaks_of_all
 
     pure function is_better(attempt, result, i) result(yes)
         !! Are more statements right if line `i` is no definition, and none of them less?
@@ -146,6 +205,7 @@ contains
         character(name_length), allocatable :: names(:)
         character(:), allocatable :: side
         integer :: equals, found, i, k, place
+        logical :: begins
 
         found = 0
         do i = 1, size(homework%statements)
@@ -157,11 +217,12 @@ contains
                 place = samples%symbols%find(samples%symbols%spelling(side))
                 if (place < 2 .or. place > 1 + 2*samples%ndof) cycle
                 if (.not. occurs(plain_letters(text), "t") .and. index(text, "(0)") == 0) cycle
+                begins = index(text(:equals), "(0)") > 0
                 call unknown_names(text(equals + 1:), samples%symbols, names)
             end associate
             do k = 1, size(names)
                 if (has_place(samples, names(k)) .or. found == most_constants) cycle
-                if (is_frequency_name(names(k), samples)) cycle
+                if (is_frequency_name(names(k), samples) .and. .not. begins) cycle
                 call add_constant(trim(names(k)), .false., samples)
                 found = found + 1
             end do

@@ -22,7 +22,8 @@ module lagrangia_judged_equality
                                          value_remark
     use lagrangia_term_search, only: library_t, part_text
     use lagrangia_unknown_names, only: hidden
-    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, put_example
+    use lagrangia_verdict, only: but_for_constant, is_right, is_unreadable, is_wrong, &
+                                 judgement_t, put_example
     implicit none (type, external)
     private
     public :: judge_forms, put_unreadable
@@ -174,7 +175,7 @@ contains
             judgement%of_motion = .not. is_trivial(judgement%residual, samples)
             if (.not. judgement%of_motion) judgement%remark = "true of any motion"
         else if (is_up_to_constant(left, judgement%residual, samples)) then
-            judgement%remark = "but for a constant"
+            judgement%remark = but_for_constant
         else if (is_equilibrium(left, right, samples)) then
             judgement%remark = another_equilibrium
         else if (is_other_lagrangian(left, right, samples)) then

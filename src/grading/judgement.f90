@@ -16,8 +16,8 @@ module lagrangia_judgement
     use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, &
-                                 is_wrong, judgement_t
+    use lagrangia_verdict, only: but_for_constant, is_consequence, is_definition, is_right, &
+                                 is_unreadable, is_wrong, judgement_t
     implicit none (type, external)
     private
     public :: judgement_t
@@ -166,7 +166,7 @@ contains
         end do
         call put_on_motion(samples, there)
         call judge_line(statement, there, library, .false., attempt)
-        if (attempt%verdict /= is_right .or. attempt%remark == "but for a constant") return
+        if (attempt%verdict /= is_right .or. attempt%remark == but_for_constant) return
         judgement = attempt
         judgement%residual = nothing  ! the constants are no symbols of the sheet
         judgement%of_motion = .false.

@@ -21,7 +21,7 @@ module lagrangia_motion_samples
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: new_samples
+    public :: new_samples, put_elsewhere, put_state
 
     integer, parameter :: most_expanded = 8  !! coordinates whose mass matrix is kept
     integer, parameter :: most_tries = 60    !! of parameters with an oscillation
@@ -103,11 +103,7 @@ contains
             return
         end if
         call put_places(samples, samples%equilibrium, samples%values)
-        samples%elsewhere = samples%values
-        do k = 1, size(samples%role)
-            call move_away(samples, k, allocated(d%typical_places))
-        end do
-        call follow_elsewhere(samples)
+        call put_elsewhere(samples, d)
     end subroutine new_samples
 
     subroutine take_energies(system, fixed, given, d)
@@ -181,46 +177,58 @@ contains
         type(description_t), intent(in) :: d    !! with any parameters
         integer, intent(in) :: draw
         type(error_t), allocatable, intent(out) :: error  !! some value is not finite
-        type(description_t) :: now
-        real(dp), allocatable :: q(:), v(:), a(:), parameters(:)
-        character(name_length), allocatable :: names(:)
-        character(name_length) :: name
+        real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
-        integer :: i, k, row
+        integer :: k, row
 
-        call system%describe(now)
-        allocate (parameters, source=default_values(now))
-        allocate (names, source=value_names(d))
-        allocate (a(system%ndof))
         do k = 1, states
             row = draw*states + k
             call samples%random%state(system, t, q, v, error)
             if (allocated(error)) return
-            call system%accelerations(t, q, v, a)
             samples%values(row, :) = 0.0_dp
-            call put("t", t)
-            do i = 1, system%ndof
-                name = d%coordinates(i)%name
-                call put(trim(name), q(i))
-                call put(trim(name)//"_dot", v(i))
-                call put(trim(name)//"_ddot", a(i))
-            end do
-            do i = 1, size(names)
-                call put(trim(names(i)), parameters(i))
-            end do
-            do i = 1, size(d%quantities)
-                call put(trim(d%quantities(i)%name), system%quantity(i, t, q, v))
-            end do
-            call put("E", system%energy(t, q, v))
-            call put_points()
-            call put_mass()
-            call put_derivatives()
-            call follow_letters(samples, row)
-            if (.not. all(ieee_is_finite(samples%values(row, :)))) then
-                call fail(error, "not finite")
-                return
-            end if
+            call put_state(samples, system, d, row, t, q, v, error)
+            if (allocated(error)) return
         end do
+    end subroutine add_states
+
+    subroutine put_state(samples, system, d, row, t, q, v, error)
+        !! All values at one state; those of the modes and of constants stay.
+        type(samples_t), intent(inout) :: samples
+        class(system_t), intent(in) :: system    !! with the parameters of this row
+        type(description_t), intent(in) :: d     !! with any parameters
+        integer, intent(in) :: row               !! which of the states
+        real(dp), intent(in) :: t, q(:), v(:)    !! time, s; state
+        type(error_t), allocatable, intent(out) :: error  !! some value is not finite
+        type(description_t) :: now
+        real(dp), allocatable :: parameters(:)
+        real(dp) :: a(system%ndof)
+        character(name_length), allocatable :: names(:)
+        character(name_length) :: name
+        integer :: i
+
+        call system%describe(now)
+        allocate (parameters, source=default_values(now))
+        allocate (names, source=value_names(d))
+        call system%accelerations(t, q, v, a)
+        call put("t", t)
+        do i = 1, system%ndof
+            name = d%coordinates(i)%name
+            call put(trim(name), q(i))
+            call put(trim(name)//"_dot", v(i))
+            call put(trim(name)//"_ddot", a(i))
+        end do
+        do i = 1, size(names)
+            call put(trim(names(i)), parameters(i))
+        end do
+        do i = 1, size(d%quantities)
+            call put(trim(d%quantities(i)%name), system%quantity(i, t, q, v))
+        end do
+        call put("E", system%energy(t, q, v))
+        call put_points()
+        call put_mass()
+        call put_derivatives()
+        call follow_letters(samples, row)
+        if (.not. all(ieee_is_finite(samples%values(row, :)))) call fail(error, "not finite")
     contains
         subroutine put(called, value)
             character(*), intent(in) :: called
@@ -317,7 +325,20 @@ contains
 
             if (abs(x) <= 1e-12_dp*scale) x = 0.0_dp
         end subroutine drop_rounding
-    end subroutine add_states
+    end subroutine put_state
+
+    subroutine put_elsewhere(samples, d)
+        !! The same states with other accelerations and other known values than those of the motion.
+        type(samples_t), intent(inout) :: samples  !! with all values
+        type(description_t), intent(in) :: d       !! of the system
+        integer :: k
+
+        samples%elsewhere = samples%values
+        do k = 1, size(samples%role)
+            call move_away(samples, k, allocated(d%typical_places))
+        end do
+        call follow_elsewhere(samples)
+    end subroutine put_elsewhere
 
     subroutine move_away(samples, k, by_size)
         !! Other accelerations and other known values than those of the motion: by 1 and more, or

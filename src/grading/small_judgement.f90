@@ -12,7 +12,8 @@ module lagrangia_small_judgement
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdict, only: is_unreadable, is_wrong, judgement_t, put_example
+    use lagrangia_verdict, only: but_for_constant, is_unreadable, is_wrong, judgement_t, &
+                                 put_example
     use lagrangia_written_out, only: energy_places, written_out
     implicit none (type, external)
     private
@@ -127,7 +128,7 @@ contains
             if (agreement%yes .or. agreement%same_motion) exit
         end do
         if (agreement%yes .or. agreement%same_motion) then
-            if (agreement%but_constant) judgement%remark = "but for a constant"
+            if (agreement%but_constant) judgement%remark = but_for_constant
             if (.not. agreement%yes) judgement%remark = "another L of the same motion"
             return
         end if

@@ -11,11 +11,13 @@ module lagrangia_verdict
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: as_new_name, judgement_t
+    public :: as_new_name, but_for_constant, judgement_t
     public :: brief, put_example, telling_digits
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
+    character(*), parameter :: but_for_constant = "but for a constant"
+    !! which L, V and E have that nobody sees
     character(*), parameter :: as_new_name = "taken for a new name: "  !! and why that is said
     integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
 
