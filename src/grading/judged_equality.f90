@@ -8,7 +8,7 @@ module lagrangia_judged_equality
     use lagrangia_kinds, only: dp
     use lagrangia_mode_choice, only: choose_modes
     use lagrangia_mode_samples, only: put_places
-    use lagrangia_rounded_numbers, only: holds_to_digits, true_number
+    use lagrangia_rounded_numbers, only: holds_to_digits, to_digits, true_number
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: change_sign, change_t
@@ -62,9 +62,9 @@ contains
         end do
         if (judgement%verdict /= is_wrong) return
         if (holds_to_digits(left, right, text, samples)) then
-            judgement%remark = "to the digits given"
+            judgement%remark = to_digits
         else if (holds_elsewhere()) then
-            judgement%remark = "to the digits given"
+            judgement%remark = to_digits
         else if (is_branch(left, right, samples)) then
             judgement%remark = "where the sign of the root is that of the other side"
         else if (small) then

@@ -12,12 +12,31 @@ module lagrangia_kept_motions
     use lagrangia_substitution, only: substituted
     implicit none (type, external)
     private
-    public :: keep_motion
+    public :: is_same_motion, keep_motion
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: enough = 4  !! states at which they have values
 
 contains
+
+    pure function is_same_motion(f, motion, samples) result(yes)
+        !! Does a line speak of the motion of a line before? It has one of its constants, or none.
+        type(expression_t), intent(in) :: f, motion   !! of the time; `motion` may be empty
+        type(samples_t), intent(in) :: samples        !! know the constants
+        logical :: yes
+        logical :: any_of_its_own
+        integer :: k
+
+        yes = motion%count > 0
+        if (.not. yes) return
+        any_of_its_own = .false.
+        do k = size(samples%role) + 1, size(samples%role) + size(samples%constants)
+            if (.not. f%depends_on(k)) cycle
+            if (motion%depends_on(k)) return
+            any_of_its_own = .true.
+        end do
+        yes = .not. any_of_its_own
+    end function is_same_motion
 
     subroutine keep_motion(coordinate, order, f, samples)
         !! Give the constants of `f` their values where it is the general motion. Amplitudes are

@@ -4,17 +4,17 @@ module lagrangia_motion_statements
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, is_function_name, operator(*), operator(+), &
-                                    operator(-), symbol, whole
+                                    operator(-), operator(/), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
     use lagrangia_initial_conditions, only: judge_start
     use lagrangia_joint_motions, only: go_together, solve_exactly
-    use lagrangia_kept_motions, only: keep_motion
+    use lagrangia_kept_motions, only: is_same_motion, keep_motion
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
     use lagrangia_motion_values, only: draw_values, put_frequencies, rate_of, unknown_rate, &
                                        values_of
-    use lagrangia_rounded_numbers, only: put_exact_frequencies
+    use lagrangia_rounded_numbers, only: put_exact_frequencies, to_digits, try_rounded
     use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
@@ -78,11 +78,11 @@ contains
         call draw_values(samples, size(symbols%names), values)
         is_one = .true.
         if (is_same_motion(f, samples%motion(coordinate), samples)) then
-            call compare_rate(coordinate, order, f, samples, values, judgement)
+            call compare_rate(coordinate, order, f, typed, samples, values, judgement)
             return
         end if
         call put_exact_frequencies(typed, samples, f)
-        call compare_exact(coordinate, order, f, samples, values, known, judgement)
+        call compare_exact(coordinate, order, f, typed, samples, values, known, judgement)
         solved = known .and. judgement%verdict == is_right
         exact = solved
         do which = 1, merge(2, 1, samples%ndof == 1)
@@ -123,25 +123,6 @@ contains
         judgement%remark = "a motion of coupled coordinates is not graded, only what holds at "// &
             "all times; write its equation, or its frequency"
     end subroutine judge_motion
-
-    pure function is_same_motion(f, motion, samples) result(yes)
-        !! Does a line speak of the motion of a line before? It has one of its constants, or none.
-        type(expression_t), intent(in) :: f, motion   !! of the time
-        type(samples_t), intent(in) :: samples        !! know the constants
-        logical :: yes
-        logical :: any_of_its_own
-        integer :: k
-
-        yes = motion%count > 0
-        if (.not. yes) return
-        any_of_its_own = .false.
-        do k = size(samples%role) + 1, size(samples%role) + size(samples%constants)
-            if (.not. f%depends_on(k)) cycle
-            if (motion%depends_on(k)) return
-            any_of_its_own = .true.
-        end do
-        yes = .not. any_of_its_own
-    end function is_same_motion
 
     subroutine find_side(side, samples, coordinate, order)
         !! Which coordinate, and how often it is differentiated; 0: it is none.
@@ -214,10 +195,11 @@ contains
         end do
     end function is_of_time
 
-    subroutine compare_rate(coordinate, order, f, samples, values, judgement)
+    subroutine compare_rate(coordinate, order, f, typed, samples, values, judgement)
         !! A second line about the same coordinate.
         integer, intent(in) :: coordinate, order
         type(expression_t), intent(in) :: f
+        character(*), intent(in) :: typed             !! both sides
         type(samples_t), intent(in) :: samples
         real(dp), intent(in) :: values(:, :)
         type(judgement_t), intent(inout) :: judgement
@@ -240,6 +222,8 @@ contains
                 if (k == 2) residual = residual + whole(2)*symbol(samples%place(coordinate))
                 call holds(residual, there, yes, known)
                 judged = judged .or. known
+                if (known .and. .not. yes) call try_rounded(residual, typed, there, yes, &
+                                                               judgement%remark)
                 if (yes) exit
             end do
             if (yes) exit
@@ -256,10 +240,11 @@ contains
         end if
     end subroutine compare_rate
 
-    subroutine compare_exact(coordinate, order, f, samples, values, is_one, judgement)
+    subroutine compare_exact(coordinate, order, f, typed, samples, values, is_one, judgement)
         !! With the equation of motion that follows from L, where it has no other coordinates.
         integer, intent(in) :: coordinate, order
-        type(expression_t), intent(in) :: f
+        type(expression_t), intent(inout) :: f
+        character(*), intent(in) :: typed             !! both sides
         type(samples_t), intent(in) :: samples
         real(dp), intent(in) :: values(:, :)
         logical, intent(out) :: is_one
@@ -277,10 +262,16 @@ contains
             ! free fall, and what rolls or slides down a plane
             put(1) = rate_of(f, 2 - order)
             if (put(1)%count == 0) put(1) = whole(0)
-            call holds(put(1) - equation, values, yes, is_one)
-            judgement%verdict = merge(is_right, is_wrong, yes)
             judgement%remark = ""
+            call holds(put(1) - equation, values, yes, is_one)
+            if (is_one .and. .not. yes) call try_rounded(put(1) - equation, typed, values, yes, &
+                                                         judgement%remark)
+            judgement%verdict = merge(is_right, is_wrong, yes)
             if (.not. yes) judgement%remark = "it does not solve the equation of motion"
+            if (judgement%remark /= to_digits) return
+            put(1) = symbol(1)*(equation - put(1))  ! its lines go on with all digits
+            if (order == 0) put(1) = symbol(1)*put(1)/whole(2)
+            f = f + put(1)
             return
         end if
         if (order > 0 .or. samples%lagrangian%count == 0 .or. .not. allocated(samples%mass)) return

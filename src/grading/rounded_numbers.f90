@@ -12,8 +12,10 @@ module lagrangia_rounded_numbers
     use lagrangia_verdict, only: brief, telling_digits
     implicit none (type, external)
     private
-    public :: holds_at, holds_to_digits, put_exact_frequencies, put_exact_number, true_number
+    public :: holds_at, holds_to_digits, put_exact_frequencies, put_exact_number, to_digits, &
+              true_number, try_rounded
 
+    character(*), parameter :: to_digits = "to the digits given"  !! what is said of such a statement
     character(*), parameter :: digits = "0123456789"
     integer, parameter :: enough = 4  !! samples at which all is finite
 
@@ -85,6 +87,18 @@ contains
         yes = all(allowed > 0.0_dp) .and. &
               all(abs(before(:, residual%count)) <= 1.000001_dp*allowed)
     end function holds_at
+
+    subroutine try_rounded(residual, text, values, yes, remark)
+        !! The same of a motion that does not hold: `x = 0.89 t^2`.
+        type(expression_t), intent(in) :: residual      !! left less right side
+        character(*), intent(in) :: text                !! both, as typed
+        real(dp), intent(in) :: values(:, :)            !! of the symbols, (states, symbols)
+        logical, intent(out) :: yes                     !! a number that rounds to it makes it hold
+        character(:), allocatable, intent(inout) :: remark  !! says so
+
+        yes = holds_at(residual, text, values)
+        if (yes) remark = to_digits
+    end subroutine try_rounded
 
     subroutine put_exact_number(truth, text, samples, meaning)
         !! The one rounded number of a formula, with all its digits: those with which it is what it
