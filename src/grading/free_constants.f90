@@ -4,6 +4,7 @@ module lagrangia_free_constants
     use lagrangia_constant_values, only: draw_constants, solve_constants
     use lagrangia_declared_constants, only: keep_constant
     use lagrangia_derivative, only: time_derivative
+    use lagrangia_energy_statements, only: contradicted_line, keep_energy
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
@@ -15,6 +16,7 @@ module lagrangia_free_constants
     use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_text, only: join, to_text
     use lagrangia_unknown_names, only: add_unknown, unknown_names
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
     use lagrangia_written_out, only: in_coordinates
@@ -41,7 +43,7 @@ contains
         type(error_t), allocatable :: error
         real(dp), allocatable :: values(:, :)
         integer, allocatable :: starts(:), chosen(:)
-        integer :: i, n
+        integer :: i, line, n
         logical :: judged, open_end, yes
 
         is_one = .false.
@@ -75,6 +77,14 @@ contains
         if (yes) then
             judgement%verdict = is_right
             judgement%remark = "with any "//trim(names(1))
+            line = contradicted_line(residual, names, samples)
+            if (line > 0) then
+                judgement%verdict = is_wrong
+                judgement%remark = "line "//to_text(line)//" has another E with "// &
+                                   join(names, ", ")
+                return
+            end if
+            call keep_energy(residual, names, samples)
             call keep_constants()
         else if (open_end) then
             judgement%remark = "its derivatives by the time are not known here; solve for one "// &

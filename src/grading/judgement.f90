@@ -58,6 +58,9 @@ contains
         do while (size(samples%kept_lines) < size(samples%kept_constants))
             samples%kept_lines = [samples%kept_lines, statement%line]
         end do
+        if (size(samples%energies) > 0) then
+            where (samples%energies%line == 0) samples%energies%line = statement%line
+        end if
         if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
             partial, samples, library, explain, judgement)
         if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &

@@ -13,7 +13,7 @@ module lagrangia_sample_names
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: compiled_t, samples_t, usual_t
+    public :: compiled_t, energy_statement_t, samples_t, usual_t
     public :: name_symbols
     public :: axes, draws, states
     public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
@@ -49,6 +49,13 @@ module lagrangia_sample_names
         logical :: is_force = .false.            !! which may be constant
         logical :: only_compared = .false.       !! unknown where the sheet does not define it
     end type usual_t
+
+    type :: energy_statement_t
+        !! `E = k A^2/2` of a line that was right.
+        type(expression_t) :: energy             !! the right side, over the symbols and constants
+        character(name_length), allocatable :: names(:)  !! of the constants, behind all symbols
+        integer :: line = 0                      !! where it stands
+    end type energy_statement_t
 
     type :: samples_t
         !! Rows of `values` are states, those of the first parameters first.
@@ -92,6 +99,7 @@ module lagrangia_sample_names
         character(name_length), allocatable :: declared(:)  !! names behind `constant:`
         integer, allocatable :: kept_constants(:)  !! places of those that a line gave their value
         integer, allocatable :: kept_lines(:)      !! and of these lines
+        type(energy_statement_t), allocatable :: energies(:)  !! with constants of no value
         logical, allocatable :: two_signs(:)       !! of each of these: its opposite would do, too
         type(expression_t), allocatable :: motion(:)
         !! of each coordinate, as a line has it; empty: none
@@ -174,7 +182,8 @@ contains
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
         allocate (samples%constants(0), samples%declared(0), samples%motion(samples%ndof))
-        allocate (samples%kept_constants(0), samples%two_signs(0), samples%kept_lines(0))
+        allocate (samples%kept_constants(0), samples%two_signs(0), samples%kept_lines(0), &
+                  samples%energies(0))
         allocate (samples%exact_motion(samples%ndof), source=.false.)
         allocate (samples%place(samples%ndof))
         do i = 1, samples%ndof
