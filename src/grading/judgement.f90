@@ -12,7 +12,8 @@ module lagrangia_judgement
     use lagrangia_motion_values, only: values_of
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: role_parameter, samples_t
-    use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium, keep_origin
+    use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium, keep_origin, &
+                                           put_inverted, put_root
     use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -38,7 +39,7 @@ contains
         type(statement_t) :: partial
         type(judgement_t) :: attempt
         integer :: which
-        logical :: total
+        logical :: found, total
 
         partial = statement
         call put_partial(curly//"L/"//curly//"t", partial%text)
@@ -51,7 +52,8 @@ contains
         end if
         if (judgement%verdict == is_definition .and. .not. statement%small) then
             which = samples%symbols%find_definition(judgement%defines)
-            if (which > 0) call keep_origin(samples%symbols%definitions(which)%meaning, samples)
+            if (which > 0) call keep_origin(samples%symbols%definitions(which)%meaning, &
+                                            .false., samples, found)
         end if
         if (judgement%verdict == is_unreadable) call try_pairs(partial, samples, library, &
                                                                explain, judgement)
@@ -71,6 +73,8 @@ contains
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
+        if (judgement%verdict == is_wrong .and. statement%small) call try_elsewhere( &
+            partial, samples, library, judgement)
         if (judgement%verdict /= is_wrong .or. .not. explain) return
         call say_constants(samples, judgement)
         ! dL/dt may be meant at rest, too
@@ -109,6 +113,33 @@ contains
         samples = after
         judgement = attempt
     end subroutine try_pairs
+
+    subroutine try_elsewhere(statement, samples, library, judgement)
+        !! `small: theta_ddot = g/l (theta - pi)` says where; of one without a place that would be
+        !! right of the upper equilibrium it is said how to say so.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know other equilibria
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: there
+        logical :: found
+
+        if (judgement%residual%count == 0) return
+        there = samples
+        call put_root(judgement%residual, there, found)
+        if (found) then
+            call judge_line(statement, there, library, .true., judgement)
+            if (judgement%verdict == is_right) judgement%remark = another_equilibrium
+            return
+        end if
+        there = samples
+        call put_inverted(there, found)
+        if (.not. found) return
+        call judge_line(statement, there, library, .false., attempt)
+        if (attempt%verdict == is_right) judgement%remark = judgement%remark//"; near pi it is "// &
+            "right: a line '"//trim(samples%symbols%names(2))//"_eq = pi' before says so"
+    end subroutine try_elsewhere
 
     subroutine say_constants(samples, judgement)
         !! Which line says what a constant is.

@@ -4,17 +4,20 @@ module lagrangia_stated_equilibria
     use lagrangia_derivative, only: derivative
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_symbol, operator(+)
+    use lagrangia_expression, only: expression_t, kind_symbol, operator(+), whole
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
+    use lagrangia_substitution, only: substituted
     use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
     public :: another_equilibrium, is_equilibrium, keep_equilibrium, keep_origin
+    public :: put_inverted, put_root
 
+    real(dp), parameter :: pi = acos(-1.0_dp)
     character(*), parameter :: another_equilibrium = "another equilibrium than that at or near zero"
     !! what is said of one
 
@@ -51,20 +54,50 @@ contains
             values = samples%values
             values(:, samples%place(coordinate)) = 0.0_dp
             call find_rest(coordinate, -values_of(residual, values), samples, values, found)
-            if (found) call keep(values, samples)
+            if (found) call keep(values, .false., samples)
             return
         end do
     end subroutine keep_equilibrium
 
-    subroutine keep_origin(meaning, samples)
+    subroutine put_root(residual, samples, found)
+        !! The equilibrium of one coordinate at which a statement about small oscillations is one
+        !! of rest: \(\ddot\theta=(g/l)(\theta-\pi)\) is about \(\pi\).
+        type(expression_t), intent(in) :: residual  !! left less right side
+        type(samples_t), intent(inout) :: samples   !! get it as the other one
+        logical, intent(out) :: found               !! there is one
+        type(expression_t) :: still(2)
+
+        found = .false.
+        if (samples%ndof /= 1) return
+        still(1) = whole(0)
+        still(2) = whole(0)
+        call keep_origin(substituted(residual, [3, 4], still), .true., samples, found)
+    end subroutine put_root
+
+    subroutine put_inverted(samples, found)
+        !! The equilibrium of one angle at \(\pi\).
+        type(samples_t), intent(inout) :: samples   !! get it as the other one
+        logical, intent(out) :: found               !! there is one
+        real(dp), allocatable :: values(:, :)
+        integer :: row
+
+        found = samples%ndof == 1 .and. samples%lagrangian%count > 0
+        if (.not. found) return
+        call find_rest(1, [(pi, row=1, size(samples%values, 1))], samples, values, found)
+        if (found) call keep(values, .true., samples)
+    end subroutine put_inverted
+
+    subroutine keep_origin(meaning, instead, samples, found)
         !! The same where a name counts a coordinate from there: \(u = c\,(q - q_0)\).
         type(expression_t), intent(in) :: meaning  !! u, in coordinates
+        logical, intent(in) :: instead             !! of another one that is known
         type(samples_t), intent(inout) :: samples  !! get the equilibrium as the other one
+        logical, intent(out) :: found              !! it is one
         type(expression_t) :: slope
         real(dp), allocatable :: values(:, :), there(:), slopes(:)
         integer :: coordinate, j, n
-        logical :: found
 
+        found = .false.
         n = samples%ndof
         if (samples%lagrangian%count == 0) return
         if (count([(meaning%depends_on(j), j=1, 1 + 3*n)]) /= 1) return
@@ -79,7 +112,7 @@ contains
             there = -values_of(meaning, values)/slopes
             if (all(abs(there) <= 0.0_dp)) return
             call find_rest(coordinate, there, samples, values, found)
-            if (found) call keep(values, samples)
+            if (found) call keep(values, instead, samples)
             return
         end do
     end subroutine keep_origin
@@ -164,12 +197,13 @@ contains
         end do
     end subroutine forces_at_rest
 
-    subroutine keep(values, samples)
+    subroutine keep(values, instead, samples)
         !! The linearised equations there, \(M=\partial^2L/\partial\dot q^2\),
         !! \(K_{ij}=-\partial F_i/\partial q_j\), \(B_{ij}=\partial^2L/\partial\dot q_i\partial q_j-
         !! \partial^2L/\partial q_i\partial\dot q_j-\partial Q_i/\partial\dot q_j\), F and Q the
         !! forces; and \(\omega^2\), of several coordinates where B is 0 and K symmetric.
         real(dp), intent(in) :: values(:, :)        !! states at rest there
+        logical, intent(in) :: instead              !! of another one that is known
         type(samples_t), intent(inout) :: samples   !! get it as the other equilibrium
         type(expression_t), allocatable :: formulas(:)
         type(expression_t) :: force(samples%ndof), momentum
@@ -180,7 +214,8 @@ contains
         integer :: draw, i, j, n
 
         n = samples%ndof
-        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)) return
+        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp) .and. &
+            .not. instead) return
         at = values(::states, :)
         if (all(abs(at(:, 2:n + 1) - transpose(samples%equilibrium)) <= &
                 1e-12_dp*(1.0_dp + abs(at(:, 2:n + 1))))) return
