@@ -3,7 +3,7 @@ module lagrangia_free_constants
     !! goes on to hold on each motion on which it once does, whatever the constant is.
     use lagrangia_constant_values, only: draw_constants, solve_constants
     use lagrangia_declared_constants, only: keep_constant
-    use lagrangia_derivative, only: time_derivative
+    use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_energy_statements, only: contradicted_line, keep_energy
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-), symbol, whole
@@ -17,9 +17,9 @@ module lagrangia_free_constants
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: join, to_text
-    use lagrangia_unknown_names, only: add_unknown, unknown_names
+    use lagrangia_unknown_names, only: add_unknown, hidden, unknown_names
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
-    use lagrangia_written_out, only: in_coordinates
+    use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
     public :: judge_with_constants
@@ -43,7 +43,7 @@ contains
         type(error_t), allocatable :: error
         real(dp), allocatable :: values(:, :)
         integer, allocatable :: starts(:), chosen(:)
-        integer :: i, line, n
+        integer :: i, line, n, turned
         logical :: judged, open_end, yes
 
         is_one = .false.
@@ -74,9 +74,16 @@ contains
         end if
         if (.not. begins_there()) return
         call find_constants()
+        turned = 0
+        if (judged .and. .not. (yes .or. any(starts > 1))) call turn_axes()
         if (yes) then
             judgement%verdict = is_right
             judgement%remark = "with any "//trim(names(1))
+            if (turned > 0) then
+                judgement%remark = judgement%remark//", where "//trim(symbols%names(turned))// &
+                                   " is counted from an axis of each motion"
+                return
+            end if
             line = contradicted_line(residual, names, samples)
             if (line > 0) then
                 judgement%verdict = is_wrong
@@ -180,6 +187,42 @@ contains
                 "motion begins? It does not hold there; a line 'constant: "//trim(names(1))// &
                 "' makes it any constant"
         end function begins_there
+
+        subroutine turn_axes()
+            !! The ellipse's \(\varphi\) is mostly counted from the perihelion: a coordinate that
+            !! L does not have may begin anywhere.
+            type(expression_t), allocatable :: formulas(:)
+            type(expression_t) :: counted(1), slope, typed
+            character(name_length), allocatable :: given(:)
+            integer :: k
+            logical :: cyclic
+
+            if (samples%lagrangian%count == 0) return
+            call energy_formulas(samples, formulas)
+            typed = residual
+            given = names
+            call symbols%add("axis"//hidden)
+            do k = 2, 1 + samples%ndof
+                if (.not. typed%depends_on(k)) cycle
+                slope = derivative(formulas(1), k)
+                cyclic = slope%count == 0
+                if (.not. cyclic) call holds(slope, samples%values, cyclic, judged)
+                if (.not. cyclic) cycle
+                names = [character(name_length) :: given, "axis"//hidden]
+                starts = [(-1, i=1, size(names))]
+                counted(1) = symbol(k) - symbol(n + size(names))
+                residual = substituted(typed, [k], counted)
+                call find_constants()
+                if (yes) then
+                    turned = k
+                    names = given
+                    return
+                end if
+            end do
+            residual = typed
+            names = given
+            judged = .true.
+        end subroutine turn_axes
 
         subroutine find_constants()
             !! The fewest constants that can have values which stay, whatever the others are.
