@@ -14,6 +14,7 @@ module lagrangia_free_constants
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_solved_accelerations, only: without_accelerations
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: join, to_text
@@ -66,7 +67,8 @@ contains
         is_one = .true.
         judgement%verdict = is_unreadable
         call find_rates()
-        if (unknown_rate(residual) /= "") residual = in_coordinates(residual, samples)
+        if (unknown_rate(residual) /= "") residual = without_accelerations( &
+            in_coordinates(residual, samples), samples)
         if (unknown_rate(residual) /= "") then
             judgement%remark = "d/dt of '"//typed_name(unknown_rate(residual))// &
                                "' is not known here; write the formula for it"
@@ -251,6 +253,8 @@ contains
 
             rates(0) = residual
             do k = 1, size(chosen)
+                if (unknown_rate(rates(k - 1)) /= "") rates(k - 1) = without_accelerations( &
+                    rates(k - 1), samples)
                 if (unknown_rate(rates(k - 1)) /= "") then
                     if (k == size(chosen)) open_end = open_end .or. has_chosen(rates(k - 1))
                     return
