@@ -1,7 +1,9 @@
 module lagrangia_initial_conditions
     !! `theta(0) = theta_0`: how a motion begins.
+    use lagrangia_canonical_form, only: simplified
     use lagrangia_declared_constants, only: has_place, keep_constant
     use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: draw_values, rate_of, values_of
     use lagrangia_sample_names, only: samples_t
@@ -10,7 +12,7 @@ module lagrangia_initial_conditions
     use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t
     implicit none (type, external)
     private
-    public :: judge_start, with_short_starts
+    public :: judge_start, with_known_starts, with_short_starts
 
 contains
 
@@ -28,6 +30,37 @@ contains
         inside = adjustl(text(first + 2:last - 1))
         if (inside(:1) == "=" .and. adjustl(inside(2:)) == "0") short(first:last) = "(0)"
     end function with_short_starts
+
+    function with_known_starts(text, samples) result(known)
+        !! `A = (r(0) + r_dot(0)/omega)/2` with the values of a motion that a line before has.
+        character(*), intent(in) :: text         !! a statement
+        type(samples_t), intent(in) :: samples   !! know the motions
+        character(:), allocatable :: known
+        type(expression_t) :: begun, beginning(1)
+        character(:), allocatable :: called
+        integer :: at, k, order
+
+        known = text
+        beginning(1) = whole(0)  ! t
+        if (index(known, "(0)") <= index(known, "=")) return
+        do k = 1, samples%ndof
+            if (samples%motion(k)%count == 0) cycle
+            do order = 0, 1
+                called = trim(samples%symbols%names(1 + k + order*samples%ndof))//"(0)"
+                begun = substituted(rate_of(samples%motion(k), order), [1], beginning)
+                if (any([(begun%depends_on(at), at=size(samples%role) + 1, &
+                          size(samples%role) + size(samples%constants))])) cycle
+                do
+                    at = index(known, called)
+                    if (at < 2) exit
+                    if (verify(known(at - 1:at - 1), " =+-*/(") > 0) exit
+                    known = known(:at - 1)//"("// &
+                            formula_text(simplified(begun, samples%symbols), samples%symbols)// &
+                            ")"//known(at + len(called):)
+                end do
+            end do
+        end do
+    end function with_known_starts
 
     subroutine judge_start(coordinate, order, f, samples, names, is_one, judgement)
         !! `theta(0) = theta_0`: how one motion of many begins, or that of a line before.

@@ -13,7 +13,7 @@ module lagrangia_judged_line
     use lagrangia_free_constants, only: judge_with_constants
     use lagrangia_frequency_squares, only: with_squares
     use lagrangia_homework, only: statement_t
-    use lagrangia_initial_conditions, only: with_short_starts
+    use lagrangia_initial_conditions, only: with_known_starts, with_short_starts
     use lagrangia_judged_equality, only: judge_forms, put_unreadable
     use lagrangia_motion_statements, only: judge_motion
     use lagrangia_own_names, only: define
@@ -54,7 +54,7 @@ contains
         judgement%example = ""
         call read_signs(statement%text, text, nearly)
         if (statement%small) text(:index(text, ":")) = ""
-        text = with_short_starts(without_full_stop(text))
+        text = with_known_starts(with_short_starts(without_full_stop(text)), samples)
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return

@@ -94,7 +94,8 @@ contains
     end subroutine keep_motion
 
     subroutine make_positive(equations, amplitude, phase, values)
-        !! Another amplitude of A cos(omega t + phi) with another phase, where that is the same.
+        !! Another amplitude of A cos(omega t + phi) with another phase, one between -pi and pi,
+        !! where that is the same.
         type(expression_t), intent(in) :: equations(0:)  !! left less right sides
         integer, intent(in) :: amplitude, phase          !! places
         real(dp), intent(inout) :: values(:, :)          !! (states, symbols)
@@ -107,6 +108,7 @@ contains
             other(:, amplitude) = -values(:, amplitude)
             other(:, phase) = values(:, phase) + pi
         end where
+        other(:, phase) = modulo(other(:, phase) + pi, 2.0_dp*pi) - pi
         do k = 0, 1
             call holds(equations(k), other, yes, judged)
             if (.not. yes) return
