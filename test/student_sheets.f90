@@ -53,6 +53,15 @@ contains
         call grade_sheet(system, marks, sheet, group)
     end subroutine grade_student_sheets
 
+    pure function base(name) result(group_name)
+        !! Of `data/scenes/kepler.nml` kepler.
+        character(*), intent(in) :: name
+        character(:), allocatable :: group_name
+
+        group_name = name(index(name, "/", back=.true.) + 1:)
+        if (index(group_name, ".nml") > 0) group_name = group_name(:index(group_name, ".nml") - 1)
+    end function base
+
     subroutine grade_sheet(name, marks, text, group)
         !! One of them.
         character(*), intent(in) :: name, marks, text
@@ -70,7 +79,7 @@ contains
         if (allocated(error)) return
         allocate (settings(size(homework%settings)))
         do i = 1, size(settings)
-            settings(i)%text = name//"%"//homework%settings(i)%text
+            settings(i)%text = base(name)//"%"//homework%settings(i)%text
         end do
         call read_named_system(name, settings, system, error)
         if (.not. allocated(error)) call grade(homework, system, result, error)

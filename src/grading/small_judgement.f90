@@ -31,7 +31,7 @@ contains
         type(judgement_t), intent(inout) :: judgement    !! of it
         type(expression_t) :: left, right
         real(dp), allocatable :: values(:, :), shown(:, :)
-        logical :: about_other, given, judged, right_one
+        logical :: about_first, about_other, given, judged, right_one
         integer :: first, k
 
         left = written_out(as_typed, samples)
@@ -45,8 +45,10 @@ contains
             return
         end if
         call compare(.true., .false.)
+        call find_rest(.true., about_other)
+        call find_rest(.false., about_first)
         about_other = judged .and. (speaks_of_place(judgement%residual, samples) .or. &
-                                    (is_zero_at_rest(.true.) .and. .not. is_zero_at_rest(.false.)))
+                                    (about_other .and. .not. about_first))
         if (.not. right_one) call compare(.false., .false.)
         if (right_one) then
             k = order_that_fails(left, right, samples, shown)
@@ -95,9 +97,10 @@ contains
             if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
         end subroutine compare
 
-        logical function is_zero_at_rest(other)
-            !! At one equilibrium.
+        subroutine find_rest(other, yes)
+            !! Does it hold at rest, at one equilibrium?
             logical, intent(in) :: other
+            logical, intent(out) :: yes
             real(dp) :: rest(size(samples%values, 1), size(samples%role))
             logical :: any_number
 
@@ -106,8 +109,8 @@ contains
                           size(rest, 1))) rest = 0.0_dp
             if (other) call put_places(samples, samples%other_equilibrium, rest)
             rest(:, 2:1 + samples%ndof) = rest(:, samples%place)
-            call holds(judgement%residual, rest, is_zero_at_rest, any_number)
-        end function is_zero_at_rest
+            call holds(judgement%residual, rest, yes, any_number)
+        end subroutine find_rest
     end subroutine judge_small
 
     subroutine judge_energies(left, right, first, samples, library, explain, judgement)
