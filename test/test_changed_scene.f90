@@ -316,8 +316,7 @@ contains
         call assertEqual(100, int(scene%every), message="0.01 s, as in the file")
         call assertEqual("every = 100 leaves the rows as far apart as the file's", scene%warning)
         call change("scene%dt=0.2", scene)
-        call assertTrue(index(scene%warning, "a row each 0.2 s, where the file") > 0, &
-                        scene%warning)
+        call assertTrue(index(scene%warning, "a row each 0.2 s, where the file") > 0, "rows")
         call change("scene%dt=1e-4;scene%every=7", scene)
         call assertEqual(7, int(scene%every), message="as it is set")
         overrides(1)%text = "scene%method=rk4"

@@ -57,7 +57,8 @@ contains
                 do j = 1, size(names)
                     places(j) = symbol(n + findloc(before%names, names(j), 1))
                 end do
-                difference = before%energy - substituted(energy, [(n + j, j=1, size(names))], places)
+                difference = before%energy - substituted(energy, [(n + j, j=1, size(names))], &
+                                                         places)
                 there = samples
                 call draw_constants(samples, size(before%names), there%values)
                 if (is_constant_of_each_draw(difference, there)) cycle

@@ -193,7 +193,7 @@ contains
 
     subroutine put_state(samples, system, d, row, t, q, v, error)
         !! All values at one state; those of the modes and of constants stay.
-        type(samples_t), intent(inout) :: samples
+        type(samples_t), intent(inout) :: samples  !! names, and values that change
         class(system_t), intent(in) :: system    !! with the parameters of this row
         type(description_t), intent(in) :: d     !! with any parameters
         integer, intent(in) :: row               !! which of the states

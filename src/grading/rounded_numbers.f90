@@ -15,7 +15,8 @@ module lagrangia_rounded_numbers
     public :: holds_at, holds_to_digits, put_exact_frequencies, put_exact_number, to_digits, &
               true_number, try_rounded
 
-    character(*), parameter :: to_digits = "to the digits given"  !! what is said of such a statement
+    character(*), parameter :: to_digits = "to the digits given"
+    !! what is said of such a statement
     character(*), parameter :: digits = "0123456789"
     integer, parameter :: enough = 4  !! samples at which all is finite
 

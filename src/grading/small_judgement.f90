@@ -3,8 +3,8 @@ module lagrangia_small_judgement
     !! energies to second.
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
     use lagrangia_mode_samples, only: put_places
+    use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
     use lagrangia_sample_names, only: role_acceleration, role_time, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
