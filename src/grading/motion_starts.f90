@@ -33,7 +33,8 @@ contains
     subroutine begin_there(homework, system, samples, there, found)
         !! States of motions that begin as the lines of a sheet say, at random times; names that
         !! these lines give initial values are those of parameters. What they do not give is at
-        !! random. No motion is known with constraints beside L, or where nothing moves.
+        !! random. No motion is known with constraints beside L, or where nothing moves; impacts have
+        !! no part in it.
         type(homework_t), intent(in) :: homework   !! as read
         class(system_t), intent(in) :: system      !! configured
         type(samples_t), intent(in) :: samples     !! any states, with the sheet's constants
@@ -51,7 +52,7 @@ contains
 
         n = system%ndof
         found = .false.
-        if (system%constraints > 0 .or. system%contacts > 0) return
+        if (system%constraints > 0) return
         there = samples
         call read_starts(homework, there, start, found)
         if (.not. found) return
