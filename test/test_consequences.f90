@@ -76,8 +76,8 @@ contains
                                   "2 omega = 2 k/m", "m = k"], &
                    [character(90) :: "'omega' must have the exponent 2", &
                     "from line 2, which is wrong", &
-                    "from line 2, which is wrong", "a condition between parameters, which "// &
-                    "are tried at random; lines 'set:' fix them"])
+                    "from line 2, which is wrong", "a condition between parameters, for "// &
+                    "the lines behind it"])
     end subroutine letters_alone
 
     subroutine what_changes_and_why()

@@ -335,8 +335,8 @@ contains
             "; small: cos(theta) = 1 + theta; small: sin(theta) = 2 theta"// &
             "; small: l theta_ddot + x_ddot - g theta = 0"// &
             "; small: theta_ddot = -(m1 + m2) g/(m1 l) sin(theta)"// &
-            "; small: theta_ddot = -(m1 + m2) g/(m2 l) theta; small: tension = m2 g"// &
-            "; small: theta_dot^2 theta = l theta_ddot + x_ddot + g theta", &
+            "; small: theta_ddot = -(m1 + m2) g/(m2 l) theta; small: tension = m2 g "// &
+            "(1 + theta); small: theta_dot^2 theta = l theta_ddot + x_ddot + g theta", &
             remarks="7 the sign of 'g theta'; 9 'm2' must be 'm1'; 10 'tension' in a statement")
         call traced("pendulum", "rrwww", "small: theta_ddot + 2 gamma theta_dot + "// &
             "omega_0^2 theta = 0; small: theta_ddot + b/(m l^2) theta_dot + (omega^2 + gamma^2)"// &

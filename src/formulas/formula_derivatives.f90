@@ -198,14 +198,15 @@ contains
         call append(reader, first, slope, node, error)
     contains
         pure logical function has_slopes()
-            !! Is there a momentum or a derivative of L in it? They are differentiated as they are.
+            !! Is there a derivative of L in it, or a momentum that is not the only one? They are
+            !! differentiated as they are.
             integer :: k
 
             has_slopes = .false.
             do k = 2 + 2*n, size(symbols%rates)
                 if (.not. operand%depends_on(k)) cycle
-                has_slopes = has_slopes .or. index(symbols%names(k), "p_") == 1 .or. &
-                             index(symbols%names(k), "d") == 1
+                has_slopes = has_slopes .or. index(symbols%names(k), "d") == 1 .or. &
+                             (index(symbols%names(k), "p_") == 1 .and. n > 1)
             end do
         end function has_slopes
     end subroutine differentiate_by

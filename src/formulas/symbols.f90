@@ -34,6 +34,7 @@ module lagrangia_symbols
     contains
         procedure :: add
         procedure :: define
+        procedure :: forget
         procedure :: find
         procedure :: find_definition
         procedure :: spelling
@@ -82,6 +83,26 @@ contains
         more(n + 1)%meaning = meaning
         call move_alloc(more, self%definitions)
     end subroutine define
+
+    pure subroutine forget(self, name)
+        !! A definition with its rates, `D_dot` and `D_ddot`; nothing where there is none.
+        class(symbols_t), intent(inout) :: self
+        character(*), intent(in) :: name  !! as in a formula
+        type(definition_t), allocatable :: kept(:)
+        integer :: i, n
+
+        if (.not. allocated(self%definitions)) return
+        allocate (kept(size(self%definitions)))
+        n = 0
+        do i = 1, size(kept)
+            if (any(self%definitions(i)%name == [character(name_length) :: name, name//"_dot", &
+                                                 name//"_ddot"])) cycle
+            n = n + 1
+            kept(n)%name = self%definitions(i)%name
+            kept(n)%meaning = self%definitions(i)%meaning
+        end do
+        self%definitions = kept(:n)
+    end subroutine forget
 
     pure function find(self, name) result(which)
         !! The place of a symbol; 0 if there is none of this name.

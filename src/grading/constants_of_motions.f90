@@ -69,7 +69,9 @@ contains
         do i = 1, size(samples%role)
             if (samples%role(i) /= role_known .or. any(samples%place == i)) cycle
             if (samples%decay > 0 .and. any(i == samples%decay + [0, 1])) cycle
-            if (residual%depends_on(i)) return
+            if (.not. residual%depends_on(i)) cycle
+            is_one = .false.
+            return
         end do
         is_one = is_one .or. .not. names_one
         if (.not. is_one) return

@@ -3,13 +3,14 @@ module lagrangia_declared_constants
     !! the motion makes of it, and the same one in all lines; in a definition, `y = l - x`, it is a
     !! number.
     use lagrangia_kinds, only: dp
+    use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_symbols, only: symbols_t
     use lagrangia_unknown_names, only: hidden
     implicit none (type, external)
     private
-    public :: add_constant, has_place, keep_constant, place_of_constant, show_constants, &
-              with_constants
+    public :: add_constant, declare_speed, has_place, keep_constant, place_of_constant, &
+              show_constants, with_constants
 
 contains
 
@@ -40,6 +41,24 @@ contains
         if (declared) samples%declared = [character(len(samples%declared)) :: samples%declared, &
                                           name]
     end subroutine add_constant
+
+    subroutine declare_speed(said, samples)
+        !! `v^2 = v_0^2 - 2 g y`: v_0 is a constant where one coordinate is a length.
+        character(*), intent(in) :: said             !! all statements
+        type(samples_t), intent(inout) :: samples    !! get the name
+        character(3), parameter :: names(*) = ["v_0", "v0 "]
+        integer :: i
+
+        if (samples%ndof /= 1) return
+        if (.not. any(samples%symbols%names(2) == ["x", "y", "z", "s", "r", "q"])) return
+        do i = 1, size(names)
+            if (.not. occurs(said, trim(names(i)))) cycle
+            if (samples%symbols%find(samples%symbols%spelling(trim(names(i)))) > 0) cycle
+            if (has_place(samples, names(i))) cycle
+            call add_constant(trim(names(i)), .true., samples)
+            return
+        end do
+    end subroutine declare_speed
 
     pure function has_place(samples, name) result(yes)
         !! Is it a constant that no line has given a value?

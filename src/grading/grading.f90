@@ -2,7 +2,7 @@ module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_consequences, only: consequences_t
-    use lagrangia_declared_constants, only: add_constant, has_place
+    use lagrangia_declared_constants, only: add_constant, declare_speed, has_place
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
     use lagrangia_determined_accelerations, only: find_determined
@@ -19,7 +19,9 @@ module lagrangia_grading
     use lagrangia_motion_starts, only: begin_there
     use lagrangia_motion_values, only: is_frequency_name
     use lagrangia_names, only: name_length
-    use lagrangia_parameter_choice, only: occurs
+    use lagrangia_parameter_choice, only: leave_out, occurs
+    use lagrangia_parameter_conditions, only: condition_t, find_condition, is_own_formula, &
+                                               put_condition
     use lagrangia_sample_names, only: role_acceleration, samples_t
     use lagrangia_sampled_formula, only: summands
     use lagrangia_small_energies, only: is_constant_of_each_draw
@@ -28,12 +30,14 @@ module lagrangia_grading
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     use lagrangia_unknown_names, only: unknown_names
+    use lagrangia_usual_meanings, only: multiplier_readings
     use lagrangia_verdict, only: but_for_constant
     implicit none (type, external)
     private
     public :: grade_t
     public :: grade
 
+    integer, parameter :: most_sides = 4       !! of a line between parameters
     integer, parameter :: most_derived = 3     !! coordinates of which all momenta are written
     integer, parameter :: most_constants = 20  !! of motions that a sheet writes out
 
@@ -59,7 +63,7 @@ contains
         type(library_t), allocatable :: library(:)
         type(judgement_t), allocatable :: attempt(:)
         type(description_t) :: d
-        type(word_t), allocatable :: insisted(:)
+        type(word_t), allocatable :: insisted(:), readings(:)
         character(*), parameter :: inside = "abcdefghijklmnopqrstuvwxyz"// &
             "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"
         character(:), allocatable :: plain, said
@@ -73,12 +77,16 @@ contains
                 if (adjustl(plain(k + 1:)) == "0" .and. verify(trim(adjustl(plain(:k - 1))), &
                     inside) == 0) cycle  ! `b = 0`
             end if
+            do k = 1, size(homework%constants)  ! `constant: beta` speaks of no drag
+                call leave_out(homework%constants(k)%text, plain)
+            end do
             said = said//" "//plain
         end do
         call new_samples(system, said, homework%settings, samples, error, calls_it_omega(homework))
         if (.not. allocated(error)) call declare_constants(homework, samples, error)
         if (allocated(error)) return
         call find_motion_constants(homework, samples)
+        call declare_speed(said, samples)
         call system%describe(d)
         call collect_terms(system, samples, library)
         allocate (insisted(0))
@@ -95,10 +103,36 @@ contains
                 insisted = insisted(:size(insisted) - 1)
             end if
         end do
+        call multiplier_readings(d, readings)
+        do i = 1, size(readings)
+            if (.not. is_wrong_with("lambda")) exit
+            call append_word(insisted, readings(i)%text)
+            call judge_sheet(homework, d, insisted, samples, library, attempt)
+            if (is_better(attempt, result%of, 0)) then
+                do k = 1, size(result%of)
+                    result%of(k) = attempt(k)
+                end do
+            else
+                insisted = insisted(:size(insisted) - 1)
+            end if
+        end do
         call take_from_start(homework, system, d, insisted, samples, library, result%of)
+        call take_conditions(homework, system, d, said, insisted, library, samples, result%of)
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result%of, result%equations, result%determined)
+    contains
+        logical function is_wrong_with(name)
+            !! Is a line wrong that speaks of `name`?
+            character(*), intent(in) :: name
+            integer :: j
+
+            is_wrong_with = .false.
+            do j = 1, size(result%of)
+                if (result%of(j)%verdict == is_wrong) is_wrong_with = is_wrong_with .or. &
+                    occurs(plain_letters(homework%statements(j)%text), name)
+            end do
+        end function is_wrong_with
     end subroutine grade
 
     subroutine take_from_start(homework, system, d, insisted, samples, library, result)
@@ -139,6 +173,66 @@ contains
             result(i)%remark = "of the motion that begins so"
         end do
     end subroutine take_from_start
+
+    subroutine take_conditions(homework, system, d, said, insisted, library, samples, result)
+        !! Behind `i_roll = m r^2/2` the lines are about systems for which that is true.
+        type(homework_t), intent(in) :: homework
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        character(*), intent(in) :: said               !! all statements
+        type(word_t), intent(in) :: insisted(:)
+        type(library_t), intent(in) :: library(:)
+        type(samples_t), intent(inout) :: samples      !! become those of the last line
+        type(judgement_t), intent(inout) :: result(:)  !! of each statement
+        type(condition_t), allocatable :: conditions(:)
+        type(condition_t) :: condition
+        type(samples_t) :: there
+        type(judgement_t), allocatable :: attempt(:)
+        type(error_t), allocatable :: error
+        integer :: i, k, side
+
+        allocate (conditions(0))
+        do i = 1, size(result)
+            do side = 1, most_sides  ! `m1 = m2 = m3` says two things
+                if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) exit
+                if (homework%statements(i)%small) exit
+                call find_condition(result(i)%residual, samples, condition)
+                if (condition%symbol == 0) exit
+                call put_condition(condition, conditions)
+                call new_samples(system, said, homework%settings, there, error, &
+                                 calls_it_omega(homework), conditions)
+                if (.not. allocated(error)) call declare_constants(homework, there, error)
+                if (allocated(error)) return
+                call find_motion_constants(homework, there)
+                call declare_speed(said, there)
+                call judge_sheet(homework, d, insisted, there, library, attempt)
+                call take_from_start(homework, system, d, insisted, there, library, attempt)
+                if (is_own_formula(condition, d, samples)) call take_before(i)
+                do k = i, size(result)
+                    result(k) = attempt(k)
+                end do
+                samples = there
+                if (result(i)%verdict /= is_right) cycle
+                result(i)%verdict = is_definition
+                result(i)%of_motion = .false.
+                result(i)%remark = "a condition between parameters, for the lines behind it"
+            end do
+        end do
+    contains
+        subroutine take_before(last)
+            !! What the system has anyway may be used before it is said.
+            integer, intent(in) :: last
+            integer :: j
+
+            do j = 1, last - 1
+                if (result(j)%verdict == is_right .or. attempt(j)%verdict /= is_right) cycle
+                if (result(j)%verdict == is_definition) cycle
+                result(j) = attempt(j)
+                if (result(j)%remark == "") result(j)%remark = "with line "// &
+                    to_text(homework%statements(last)%line)
+            end do
+        end subroutine take_before
+    end subroutine take_conditions
 
     pure function speaks_of_all(residual, samples) result(yes)
         !! Has it accelerations, L or its derivatives?

@@ -88,7 +88,7 @@ contains
             call solve_or_refuse()
             return
         end if
-        chained = is_slope(side) .or. begun > 1
+        chained = is_slope(side) .or. is_usual(side, samples) .or. begun > 1
         do
             first = next + 1
             small = small .or. nearly(next)
@@ -214,7 +214,8 @@ contains
             character(:), allocatable :: formula
 
             if (statement%small) return
-            call solve_constraint(text, samples, name, formula)
+            ! the sides before the last two are right
+            call solve_constraint(text(merge(begun, 1, next > len(text)):), samples, name, formula)
             if (name == "") return
             judgement%remark = ""
             call define(name, .false., formula, text, statement%used, samples, library, judgement)
@@ -237,6 +238,15 @@ contains
             if (next > 0) judgement%verdict = is_right
         end subroutine define_here
     end subroutine judge_line
+
+    pure function is_usual(side, samples) result(yes)
+        !! A name alone that stands for what it mostly means.
+        character(*), intent(in) :: side          !! the left one, as typed
+        type(samples_t), intent(in) :: samples    !! know the names
+        logical :: yes
+
+        yes = any(samples%usual%name == adjustl(side))
+    end function is_usual
 
     pure function as_in(text, first, last) result(side)
         !! One side of a statement; in LaTeX, `mgl` is a product on both of them.

@@ -79,6 +79,8 @@ contains
             type(symbols_t) :: before
 
             before = samples%symbols
+            call judge_corrected(at)
+            if (result(at)%verdict == is_right) return
             call judge(sheet%statements(at), samples, library, .true., result(at))
             waits(at) = result(at)%verdict == is_unreadable .and. speaks_of_later(at)
             if (waits(at)) return
@@ -101,6 +103,39 @@ contains
                 end if
             end associate
         end subroutine judge_one
+
+        subroutine judge_corrected(at)
+            !! The definition of a name that a line before defines wrongly, as a new one: `omega_1`
+            !! of no oscillation, then of one.
+            integer, intent(in) :: at
+            type(samples_t) :: without
+            integer :: k
+
+            result(at)%verdict = is_wrong
+            do k = at - 1, 1, -1
+                if (.not. allocated(result(k)%defines)) cycle
+                if (.not. occurs(left_side(at), result(k)%defines)) cycle
+                if (result(k)%verdict /= is_wrong .and. .not. result(k)%of_none) return
+                without = samples
+                call without%symbols%forget(result(k)%defines)
+                call judge(sheet%statements(at), without, library, .false., result(at))
+                if (result(at)%verdict /= is_right) return
+                if (.not. allocated(result(at)%defines)) then
+                    result(at)%verdict = is_wrong  ! it says something else
+                    return
+                end if
+                samples = without
+                call consequences%add_names(samples%symbols)
+                return
+            end do
+        end subroutine judge_corrected
+
+        function left_side(at) result(side)
+            integer, intent(in) :: at
+            character(:), allocatable :: side
+
+            side = plain(at)%text(:max(0, index(plain(at)%text, "=") - 1))
+        end function left_side
 
         logical function speaks_of_later(at)
             !! Has it a name that a later statement defines, and none before?

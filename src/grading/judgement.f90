@@ -38,6 +38,7 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(statement_t) :: partial
         type(judgement_t) :: attempt
+        type(samples_t) :: before
         integer :: which
         logical :: found, total
 
@@ -45,6 +46,7 @@ contains
         call put_partial(curly//"L/"//curly//"t", partial%text)
         call put_partial("\frac{\partial L}{\partial t}", partial%text)
         call put_partial("\partial L/\partial t", partial%text)
+        if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) before = samples
         call judge_line(partial, samples, library, explain, judgement)
         if (judgement%verdict == is_right) then
             if (judgement%remark == another_equilibrium) call keep_equilibrium( &
@@ -64,7 +66,7 @@ contains
             where (samples%energies%line == 0) samples%energies%line = statement%line
         end if
         if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
-            partial, samples, library, explain, judgement)
+            partial, before, samples, library, explain, judgement)
         if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &
                                                                  judgement)
         if (judgement%verdict == is_wrong) call try_choice(samples, judgement)
@@ -157,9 +159,10 @@ contains
         end do
     end subroutine say_constants
 
-    subroutine try_along_motion(statement, samples, library, explain, judgement)
+    subroutine try_along_motion(statement, before, samples, library, explain, judgement)
         !! `v dv/dx = a` differentiates along the motion; `dL/dx` keeps its meaning.
         type(statement_t), intent(in) :: statement      !! as typed
+        type(samples_t), intent(in) :: before           !! without the names that it defines
         type(samples_t), intent(inout) :: samples       !! get the names that it defines
         type(library_t), intent(in) :: library(:)       !! right terms
         logical, intent(in) :: explain                  !! say what is wrong
@@ -167,11 +170,13 @@ contains
         type(judgement_t) :: attempt
         type(samples_t) :: other
 
-        if (judgement%verdict /= is_wrong .and. judgement%verdict /= is_unreadable) return
-        other = samples
+        if (judgement%verdict /= is_wrong .and. judgement%verdict /= is_unreadable .and. &
+            .not. judgement%contradicts) return
+        other = before
         other%symbols%along_motion = .true.
         call judge_line(statement, other, library, explain, attempt)
         if (attempt%verdict == is_unreadable) return
+        if (judgement%contradicts .and. attempt%verdict /= is_right) return
         if (attempt%verdict == is_wrong) then
             if (judgement%verdict == is_wrong .and. attempt%is_unexplained) return
             judgement = attempt

@@ -13,6 +13,7 @@ module lagrangia_motion_samples
     use lagrangia_mode_samples, only: add_modes, put_places, stable_somewhere
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
+    use lagrangia_parameter_conditions, only: condition_t, satisfy
     use lagrangia_random_draws, only: random_t
     use lagrangia_sample_names, only: axes, draws, name_symbols, role_acceleration, &
                                       role_frequency, role_known, samples_t, states
@@ -50,7 +51,7 @@ contains
         end do
     end subroutine refuse_letters
 
-    subroutine new_samples(system, said, settings, samples, error, own_omega)
+    subroutine new_samples(system, said, settings, samples, error, own_omega, conditions)
         !! Of `system`, about which `said` speaks: a parameter that it does not name and whose
         !! default is zero or a formula keeps that.
         class(system_t), intent(in) :: system             !! configured
@@ -59,6 +60,7 @@ contains
         type(samples_t), intent(out) :: samples           !! names and values
         type(error_t), allocatable, intent(out) :: error  !! no states at which L is a number
         logical, intent(in), optional :: own_omega        !! the sheet calls something else omega
+        type(condition_t), intent(in), optional :: conditions(:)  !! that parameters satisfy
         class(system_t), allocatable :: drawn
         type(description_t) :: d
         type(error_t), allocatable :: refusal
@@ -88,6 +90,8 @@ contains
                                merge(0.1_dp, 1.0_dp, tries > 0))
             call samples%random%parameters(drawn, .false., values, refusal, &
                                            fixed .or. drawn_value, given)
+            if (present(conditions) .and. .not. allocated(refusal)) call satisfy( &
+                conditions, samples, drawn, values, refusal)
             if (.not. allocated(refusal)) call add_states(samples, drawn, d, draw, refusal)
             if (allocated(refusal)) cycle
             draw = draw + 1

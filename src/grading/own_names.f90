@@ -2,12 +2,13 @@ module lagrangia_own_names
     !! Names that a student gives: what they stand for, and whether that is what everybody means by
     !! them.
     use lagrangia_declared_constants, only: with_constants
+    use lagrangia_derivative, only: derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judged_equality, only: judge_forms, put_unreadable
     use lagrangia_rounded_numbers, only: put_exact_number
-    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sample_names, only: role_coordinate, role_parameter, samples_t
     use lagrangia_statement_forms, only: define_by_period, define_rates, find_frequency, &
                                          means_frequency
     use lagrangia_term_search, only: library_t
@@ -57,6 +58,7 @@ contains
             return
         end if
         call define_rates(name, meaning, samples)
+        if (name == "V_eff" .or. name == "U_eff") call define_slopes(name, meaning, samples)
         call compare_usual(name, meaning, samples, judgement)
         if (name == "T" .or. name == "V") judgement%remark = as_new_name// &
             "of this system only L is known"
@@ -79,6 +81,26 @@ contains
                 trim(merge("period   ", "frequency", name(1:1) == "T"))
         end if
     end subroutine define
+
+    pure subroutine define_slopes(name, meaning, samples)
+        !! `dV_eff/dr`, in which the momenta are constants.
+        character(*), intent(in) :: name
+        type(expression_t), intent(in) :: meaning
+        type(samples_t), intent(inout) :: samples
+        type(error_t), allocatable :: error
+        integer :: k
+
+        do k = 1, size(samples%role)
+            if (.not. meaning%depends_on(k)) cycle
+            if (samples%symbols%names(k)(:2) == "p_") cycle
+            if (samples%role(k) == role_parameter .and. samples%rate(k) == 0) cycle
+            if (samples%role(k) /= role_coordinate) return
+        end do
+        do k = 2, 1 + samples%ndof
+            call samples%symbols%define("d"//name//"_d"//trim(samples%symbols%names(k)), &
+                                        derivative(meaning, k), error)
+        end do
+    end subroutine define_slopes
 
     subroutine compare_usual(name, meaning, samples, judgement)
         !! A definition of H, v or S is right if it is what is mostly called that.

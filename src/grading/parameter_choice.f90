@@ -7,7 +7,7 @@ module lagrangia_parameter_choice
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: find_parameter, keep, occurs, spread_values
+    public :: find_parameter, keep, leave_out, occurs, spread_values
 
 contains
 
@@ -184,4 +184,22 @@ contains
             i = at + 1
         end do
     end function occurs
+
+    pure subroutine leave_out(name, text)
+        !! Blanks for a name in formulas.
+        character(*), intent(in) :: name                   !! a word of its own
+        character(:), allocatable, intent(inout) :: text   !! loses it
+        integer :: at, first
+
+        if (.not. occurs(text, name)) return
+        first = 1
+        do
+            at = index(text(first:), name)
+            if (at == 0) return
+            at = first + at - 1
+            first = at + len(name)
+            if (.not. occurs(text(max(1, at - 1):min(len(text), first)), name)) cycle
+            text(at:first - 1) = ""
+        end do
+    end subroutine leave_out
 end module lagrangia_parameter_choice

@@ -5,8 +5,10 @@ module lagrangia_small_judgement
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
     use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
-    use lagrangia_sample_names, only: role_acceleration, role_time, samples_t, states
+    use lagrangia_sample_names, only: role_acceleration, role_known, role_parameter, &
+                                      role_time, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
+    use lagrangia_small_driven_motion, only: is_driven, judge_driven
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_statement_forms, only: speaks_of_place
@@ -14,7 +16,7 @@ module lagrangia_small_judgement
     use lagrangia_text, only: to_text
     use lagrangia_verdict, only: but_for_constant, is_unreadable, is_wrong, judgement_t, &
                                  put_example
-    use lagrangia_written_out, only: energy_places, written_out
+    use lagrangia_written_out, only: energy_places, in_coordinates, written_out
     implicit none (type, external)
     private
     public :: judge_small
@@ -37,11 +39,20 @@ contains
         left = written_out(as_typed, samples)
         right = written_out(other_side, samples)
         judgement%residual = left - right
+        if (is_of_quantity(judgement%residual, samples)) then
+            left = in_coordinates(left, samples)
+            right = in_coordinates(right, samples)
+            judgement%residual = left - right
+        end if
         given = as_typed%count == 1 .and. left%count > 1  ! p_theta, say
         first = merge(left%count + 1, 1, chained .or. given)
         if (any([(judgement%residual%depends_on(k), k=1, size(samples%role))] .and. &
                 [(any(energy_places(samples) == k), k=1, size(samples%role))])) then
             call judge_energies(left, right, first, samples, library, explain, judgement)
+            return
+        end if
+        if (is_driven(judgement%residual, samples)) then
+            call judge_driven(left, right, first, samples, library, explain, judgement)
             return
         end if
         call compare(.true., .false.)
@@ -112,6 +123,22 @@ contains
             call holds(judgement%residual, rest, yes, any_number)
         end subroutine find_rest
     end subroutine judge_small
+
+    pure function is_of_quantity(residual, samples) result(yes)
+        !! `tension = m g`: of a quantity that has a formula, and else of constants only.
+        type(expression_t), intent(in) :: residual   !! left less right side
+        type(samples_t), intent(in) :: samples       !! know the formulas
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        do k = 1, size(samples%role)
+            if (.not. residual%depends_on(k) .or. samples%role(k) == role_parameter) cycle
+            yes = samples%role(k) == role_known .and. any(samples%compiled%symbol == k) .and. &
+                  .not. any(energy_places(samples) == k)
+            if (.not. yes) return
+        end do
+    end function is_of_quantity
 
     subroutine judge_energies(left, right, first, samples, library, explain, judgement)
         !! L, T, V or E, to second order.

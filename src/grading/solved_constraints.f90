@@ -1,11 +1,11 @@
 module lagrangia_solved_constraints
     !! A constraint that brings in a place which the system does not name: of `x + y + pi R = l`,
-    !! the length of a string, y.
+    !! the length of a string, y. A parameter that is written with another one, `I = M R^2/2`.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_declared_constants, only: with_constants
     use lagrangia_derivative, only: derivative
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_expression, only: expression_t, kind_symbol, operator(-), operator(/), whole
     use lagrangia_formula_parser, only: parse_equation
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
@@ -14,7 +14,7 @@ module lagrangia_solved_constraints
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_unknown_names, only: unknown_names
+    use lagrangia_unknown_names, only: hidden, unknown_names
     implicit none (type, external)
     private
     public :: solve_constraint
@@ -23,7 +23,7 @@ contains
 
     subroutine solve_constraint(text, samples, name, formula)
         !! The one unknown name, which stands with the factor 1 or -1 beside coordinates and
-        !! parameters, and what it is.
+        !! parameters, or once in what a parameter is, and what it is.
         character(*), intent(in) :: text                    !! a statement with one `=`
         type(samples_t), intent(in) :: samples              !! know the other names
         character(:), allocatable, intent(out) :: name      !! empty: there is none of this kind
@@ -55,7 +55,12 @@ contains
             moves = moves .or. samples%role(i) == role_coordinate
         end do
         slope = derivative(rest, place)
-        if (.not. moves .or. any([(slope%depends_on(i), i=1, place)])) return
+        if (slope%depends_on(place)) return
+        if (.not. moves) then
+            if (is_parameter(left)) call solve_for_it()
+            return
+        end if
+        if (any([(slope%depends_on(i), i=1, place)])) return
         allocate (values(1, place), nodes(1, slope%count))
         values = 0.0_dp
         call evaluate_nodes(slope, values, nodes)
@@ -65,5 +70,24 @@ contains
         if (nodes(1, slope%count) > 0.0_dp) rest = zero(1) - rest
         name = trim(new(1))
         formula = formula_text(simplified(rest, symbols), symbols)
+    contains
+        pure logical function is_parameter(side)
+            !! Alone, and of the system?
+            type(expression_t), intent(in) :: side
+
+            is_parameter = side%count == 1
+            if (is_parameter) is_parameter = side%nodes(1)%kind == kind_symbol
+            if (is_parameter) is_parameter = side%nodes(1)%which < place
+            if (is_parameter) is_parameter = &
+                index(samples%symbols%names(side%nodes(1)%which), hidden) == 0
+        end function is_parameter
+
+        subroutine solve_for_it()
+            zero(1) = whole(0)
+            rest = substituted(rest, [place], zero)
+            rest = -rest/slope
+            name = trim(new(1))
+            formula = formula_text(simplified(rest, symbols), symbols)
+        end subroutine solve_for_it
     end subroutine solve_constraint
 end module lagrangia_solved_constraints

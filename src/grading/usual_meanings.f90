@@ -1,21 +1,25 @@
 module lagrangia_usual_meanings
     !! What H, U, p, v and the force S of a string mostly stand for.
+    use lagrangia_canonical_form, only: simplified
+    use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(**), operator(*), &
                                     operator(+), operator(-), operator(/), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_kinds, only: dp
-    use lagrangia_sample_names, only: samples_t, states, usual_t
+    use lagrangia_sample_names, only: axes, samples_t, states, usual_t
+    use lagrangia_sampled_formula, only: summands
+    use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_written_out, only: energy_formulas
     implicit none (type, external)
     private
-    public :: collect_meanings
+    public :: collect_meanings, multiplier_readings
 
     character(*), parameter :: digits = "0123456789"
-    integer, parameter :: most_names = 400, most_coordinates = 12
+    integer, parameter :: most_names = 400, most_coordinates = 12, most_cyclic = 3
 
 contains
 
@@ -33,6 +37,7 @@ contains
             call collect_momenta(samples, all, n)
             call collect_points(d, samples, all, n)
         end if
+        call collect_effective(samples, all, n)
         call collect_forces(d, samples, all, n)
         call collect_frequencies(samples, all, n)
         all = all(:n)
@@ -112,7 +117,8 @@ contains
     end subroutine collect_momenta
 
     subroutine collect_points(d, samples, all, n)
-        !! `x1`, `y1`, `v1` and `T_1` of the first mass; without a number if there is only one.
+        !! `x1`, `y1`, `v1` and `T_1` of the first mass; without a number if there is only one. v of
+        !! several masses is that of the one called m, or of all if they go with one speed.
         type(description_t), intent(in) :: d
         type(samples_t), intent(in) :: samples
         type(usual_t), intent(inout) :: all(:)
@@ -120,19 +126,48 @@ contains
         character(name_length) :: point
         type(expression_t) :: mass, speed2
         type(error_t), allocatable :: error
+        logical :: together
         integer :: i
 
         if (.not. allocated(d%points)) return
+        together = samples%ndof == 1
         do i = 1, size(d%points)
             point = d%points(i)%name
             speed2 = rate("x")**2 + rate("y")**2 + rate("z")**2
+            if (samples%ndof == 1) then
+                if (is_speed_of(point, samples%values(:, 3)**2)) speed2 = symbol(3)**2
+            end if
+            together = together .and. speed2%depends_on(3)
             call add_for(to_text(i))
             if (number_of(point) /= "" .and. number_of(point) /= to_text(i)) then
                 call add_for(number_of(point))
             end if
             if (size(d%points) == 1) call add_for("")
+            if (size(d%points) == 1) cycle
+            if (d%points(i)%mass_formula == "m") then
+                call put(all, n, samples, "v", "the speed of "//point, apply(f_sqrt, speed2), &
+                         either_sign=.true.)
+            else if (together .and. i == size(d%points)) then
+                call put(all, n, samples, "v", "the speed of the masses", apply(f_sqrt, speed2), &
+                         either_sign=.true.)
+            end if
         end do
     contains
+        logical function is_speed_of(point, square)
+            !! Does it go as fast as that, at all states?
+            character(*), intent(in) :: point
+            real(dp), intent(in) :: square(:)
+            real(dp) :: speeds(size(square))
+            integer :: m
+
+            speeds = 0.0_dp
+            do m = 1, size(axes)
+                speeds = speeds + samples%values(:, samples%symbols%find( &
+                                                 axes(m)//"_"//trim(point)//"_dot"))**2
+            end do
+            is_speed_of = maxval(abs(speeds - square) - 1e-12_dp*square) <= 0.0_dp
+        end function is_speed_of
+
         function rate(axis) result(e)
             character, intent(in) :: axis
             type(expression_t) :: e
@@ -166,9 +201,92 @@ contains
         end subroutine add_place
     end subroutine collect_points
 
+    subroutine collect_effective(samples, all, n)
+        !! V_eff: of one coordinate, or of the one that is not cyclic, with the momenta of the
+        !! others.
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(*), parameter :: label = "the effective potential"
+        type(expression_t) :: effective, slope, still(1)
+        type(expression_t), allocatable :: formulas(:)
+        integer :: k, velocity
+        logical :: conserves
+
+        if (samples%lagrangian%count == 0 .or. samples%ndof > most_cyclic + 1) return
+        if (samples%lagrangian%depends_on(1)) return
+        still(1) = whole(0)
+        call energy_formulas(samples, formulas)  ! L may be printed as T - V
+        if (samples%ndof == 1) then
+            effective = -substituted(formulas(1), [3], still)
+            call put(all, n, samples, "V_eff", "- L at rest", effective, any_zero=.true.)
+            call put(all, n, samples, "U_eff", "- L at rest", effective, any_zero=.true.)
+            return
+        end if
+        k = only_place(formulas(1), samples)
+        if (k == 0) return
+        velocity = k + samples%ndof
+        slope = simplified(-substituted(derivative(formulas(1), k), [velocity], still), &
+                           samples%symbols)
+        do k = 1, 2  ! p_psi^2/(2 I3), which is constant, is mostly no part of it
+            effective = formulas(2)
+            conserves = k == 1 .and. formulas(3)%count > 1 .and. formulas(4)%count > 0
+            if (conserves) effective = without_conserved(formulas(3), samples) + formulas(4)
+            effective = simplified(substituted(effective, [velocity], still), samples%symbols)
+            call put(all, n, samples, "V_eff", label, effective, any_zero=.true.)
+            call put(all, n, samples, "U_eff", label, effective, any_zero=.true.)
+        end do
+        associate (name => samples%symbols%names(velocity - samples%ndof))
+            call put(all, n, samples, "dV_eff_d"//trim(name), "", slope, always=.true.)
+            call put(all, n, samples, "dU_eff_d"//trim(name), "", slope, always=.true.)
+        end associate
+    end subroutine collect_effective
+
+    pure function only_place(lagrangian, samples) result(place)
+        !! Of the one coordinate that is not cyclic, whose velocity no other one's momentum has; 0:
+        !! there is none.
+        type(expression_t), intent(in) :: lagrangian  !! in coordinates and velocities
+        type(samples_t), intent(in) :: samples
+        integer :: place
+        integer :: i, k
+
+        place = 0
+        if (.not. allocated(samples%mass)) return
+        if (count([(lagrangian%depends_on(1 + i), i=1, samples%ndof)]) /= 1) return
+        k = findloc([(lagrangian%depends_on(1 + i), i=1, samples%ndof)], .true., 1)
+        do i = 1, samples%ndof
+            if (i == k) cycle
+            if (any(abs(samples%mass(i, k, :)) > 0.0_dp)) return
+            ! a force beside L
+            if (any(abs(samples%values(:, samples%rate(samples%symbols%find("p_"// &
+                trim(samples%symbols%names(1 + i)))))) > 1e-9_dp)) return
+        end do
+        place = 1 + k
+    end function only_place
+
+    function without_conserved(kinetic, samples) result(rest)
+        !! The summands of T that change.
+        type(expression_t), intent(in) :: kinetic
+        type(samples_t), intent(in) :: samples
+        type(expression_t) :: rest, part
+        integer, allocatable :: nodes(:)
+        real(dp), allocatable :: signs(:)
+        logical :: judged, stays
+        integer :: i
+
+        rest = whole(0)
+        call summands(kinetic, nodes, signs)
+        do i = 1, size(nodes)
+            part = kinetic%pruned(nodes(i))
+            call holds(time_derivative(part, samples%rate, 1), samples%values, stays, judged)
+            if (stays) cycle
+            if (signs(i) < 0.0_dp) part = -part
+            rest = rest + part
+        end do
+    end function without_conserved
+
     subroutine collect_forces(d, samples, all, n)
-        !! S, N, F, T_1, lambda: the quantities that are forces; V_eff where L has no other
-        !! velocity.
+        !! S, N, F, T_1, lambda: the quantities that are forces.
         type(description_t), intent(in) :: d
         type(samples_t), intent(in) :: samples
         type(usual_t), intent(inout) :: all(:)
@@ -177,18 +295,10 @@ contains
                                                    "F_Z", "Z", "lambda", "F"]
         character(*), parameter :: others(*) = [character(7) :: "N", "F_N", "F_Zwang", "F_Z", "Z", &
                                              "lambda", "F"]
-        type(expression_t) :: still(1), effective
-        type(expression_t), allocatable :: formulas(:)
         integer :: i
 
-        if (samples%ndof == 1 .and. samples%lagrangian%count > 0 .and. &
-            .not. samples%lagrangian%depends_on(1)) then
-            still(1) = whole(0)
-            call energy_formulas(samples, formulas)  ! L may be printed as T - V
-            effective = -substituted(formulas(1), [3], still)
-            call put(all, n, samples, "V_eff", "- L at rest", effective, any_zero=.true.)
-            call put(all, n, samples, "U_eff", "- L at rest", effective, any_zero=.true.)
-        end if
+        if (has_one_multiplier(d)) call put(all, n, samples, "lambda", "lambda1", &
+            symbol(samples%symbols%find("lambda1")), either_sign=.true., is_force=.true.)
         do i = 1, size(d%quantities)
             if (d%quantities(i)%unit /= "N") cycle
             if (index(d%quantities(i)%name, "tension") == 1) then
@@ -219,6 +329,28 @@ contains
                      is_force=.true.)
         end subroutine put_force
     end subroutine collect_forces
+
+    pure logical function has_one_multiplier(d)
+        !! Has it one constraint beside L, with the multiplier lambda1?
+        type(description_t), intent(in) :: d  !! of the system
+
+        has_one_multiplier = any(d%quantities%name == "lambda1") .and. &
+                             .not. any(d%quantities%name == "lambda2")
+    end function has_one_multiplier
+
+    subroutine multiplier_readings(d, readings)
+        !! What `lambda` may be where lambda1 does not fit: `lambda=pull`, of each force.
+        type(description_t), intent(in) :: d                    !! of the system
+        type(word_t), allocatable, intent(out) :: readings(:)   !! names with a label each
+        integer :: i
+
+        allocate (readings(0))
+        if (.not. has_one_multiplier(d)) return
+        do i = 1, size(d%quantities)
+            if (d%quantities(i)%unit == "N") call append_word(readings, "lambda="// &
+                                                              trim(d%quantities(i)%name))
+        end do
+    end subroutine multiplier_readings
 
     pure subroutine collect_frequencies(samples, all, n)
         !! `omega_0` of one coordinate, where omega is no parameter; beta of a decay.

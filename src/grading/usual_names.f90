@@ -24,7 +24,8 @@ module lagrangia_usual_names
 contains
 
     subroutine add_usual_names(d, homework, insisted, samples)
-        !! Those that the sheet speaks of; it defines none of those in `insisted`.
+        !! Those that the sheet speaks of; it defines none of those in `insisted`, where
+        !! `lambda=pull` chooses one of several meanings.
         type(description_t), intent(in) :: d          !! of the system
         type(homework_t), intent(in) :: homework      !! the sheet
         type(word_t), intent(in) :: insisted(:)       !! names with their usual meaning
@@ -48,8 +49,10 @@ contains
             if (.not. is_insisted(all(i)%name)) then
                 if (all(i)%only_compared) cycle
                 if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
+                if (is_effective(all(i)) .and. any(given == all(i)%name(2:6))) cycle
             end if
-            if (any(samples%declared == all(i)%name)) cycle
+            if (is_declared(all(i)%name)) cycle
+            if (is_read_otherwise(all(i))) cycle
             call samples%symbols%define(trim(all(i)%name), all(i)%meaning, error)
             if (allocated(error)) cycle
             call define_rates(trim(all(i)%name), all(i)%meaning, samples)
@@ -62,6 +65,27 @@ contains
             is_insisted = any([(bare_name(insisted(k)%text) == bare_name(name), &
                                 k=1, size(insisted))])
         end function is_insisted
+
+        logical function is_declared(name)
+            !! Is it a constant of the sheet?
+            character(*), intent(in) :: name
+            integer :: k
+
+            is_declared = any([(bare_name(samples%declared(k)) == bare_name(name), &
+                                k=1, size(samples%declared))])
+        end function is_declared
+
+        logical function is_read_otherwise(usual)
+            !! Is another meaning of this name chosen?
+            type(usual_t), intent(in) :: usual
+            integer :: k
+
+            is_read_otherwise = .false.
+            do k = 1, size(insisted)
+                if (index(insisted(k)%text, trim(usual%name)//"=") == 1) is_read_otherwise = &
+                    insisted(k)%text /= trim(usual%name)//"="//usual%label
+            end do
+        end function is_read_otherwise
     end subroutine add_usual_names
 
     subroutine mark_used(homework, samples)
@@ -94,7 +118,9 @@ contains
         logical :: yes
         integer :: i
 
-        if (any(usual%name(:4) == ["dH_d", "dU_d"])) then
+        if (is_effective(usual)) then
+            yes = any(said == usual%name(2:6))
+        else if (any(usual%name(:4) == ["dH_d", "dU_d"])) then
             yes = any(said == usual%name(2:2))
         else if (usual%always) then
             yes = any(said == usual%name)
@@ -102,6 +128,13 @@ contains
             yes = any([(bare_name(said(i)) == bare_name(usual%name), i=1, size(said))])
         end if
     end function is_said
+
+    pure logical function is_effective(usual)
+        !! Is it the slope of an effective potential, `dV_eff_dr`?
+        type(usual_t), intent(in) :: usual
+
+        is_effective = any(usual%name(:7) == ["dV_eff_", "dU_eff_"])
+    end function is_effective
 
     subroutine find_usual(name, meaning, samples, known, agrees, label)
         !! Whether a definition is what its name mostly stands for.
