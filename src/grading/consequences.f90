@@ -3,7 +3,7 @@ module lagrangia_consequences
     !! once, and goes on from it as one should.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: time_derivative
-    use lagrangia_expression, only: expression_t, kind_symbol, operator(-), symbol
+    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol, operator(-), symbol
     use lagrangia_formula_program, only: new_formula_program
     use lagrangia_homework, only: statement_t
     use lagrangia_judgement, only: is_right, judge, judgement_t
@@ -130,6 +130,7 @@ contains
         end if
         if (.not. allocated(truth%mass)) return
         left = residual%nodes(residual%count)%left
+        if (residual%nodes(residual%count)%kind /= kind_difference) return
         right = residual%pruned(residual%nodes(residual%count)%right)
         k = 0
         if (residual%nodes(left)%kind == kind_symbol) k = residual%nodes(left)%which

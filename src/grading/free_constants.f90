@@ -39,7 +39,7 @@ contains
         logical, intent(out) :: is_one                     !! all is said
         type(judgement_t), intent(inout) :: judgement      !! of it
         character(name_length), allocatable :: names(:)
-        type(expression_t) :: left, right, residual
+        type(expression_t) :: left, nothing, right, residual
         type(symbols_t) :: symbols
         type(error_t), allocatable :: error
         real(dp), allocatable :: values(:, :)
@@ -91,6 +91,8 @@ contains
                 judgement%verdict = is_wrong
                 judgement%remark = "line "//to_text(line)//" has another E with "// &
                                    join(names, ", ")
+                judgement%residual = nothing  ! it contradicts a line, not the motion
+                judgement%of_motion = .false.
                 return
             end if
             call keep_energy(residual, names, samples)
