@@ -34,7 +34,7 @@ HONEST = [
 ]
 
 
-PATIENCE = 30  # s
+PATIENCE = 150  # s, a run of a minute and more says so
 
 
 def main():

@@ -33,8 +33,7 @@ contains
     subroutine begin_there(homework, system, samples, there, found)
         !! States of motions that begin as the lines of a sheet say, at random times; names that
         !! these lines give initial values are those of parameters. What they do not give is at
-        !! random. No motion is known with constraints beside L, or where nothing moves; impacts have
-        !! no part in it.
+        !! random. None is known with constraints beside L, or where nothing moves; no impacts.
         type(homework_t), intent(in) :: homework   !! as read
         class(system_t), intent(in) :: system      !! configured
         type(samples_t), intent(in) :: samples     !! any states, with the sheet's constants
