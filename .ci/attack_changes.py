@@ -34,7 +34,7 @@ HONEST = [
 ]
 
 
-PATIENCE = 150  # s, a run of a minute and more says so
+PATIENCE = 75  # s; a run says so within a minute that it takes one or more
 
 
 def main():
