@@ -52,7 +52,8 @@ contains
             if (judgement%remark == another_equilibrium) call keep_equilibrium( &
                 judgement%residual, samples)
         end if
-        if (judgement%verdict == is_definition .and. .not. statement%small) then
+        found = judgement%verdict == is_definition .and. .not. statement%small
+        if (found .and. allocated(judgement%defines)) then
             which = samples%symbols%find_definition(judgement%defines)
             if (which > 0) call keep_origin(samples%symbols%definitions(which)%meaning, &
                                             .false., samples, found)
