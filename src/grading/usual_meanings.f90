@@ -202,8 +202,8 @@ contains
     end subroutine collect_points
 
     subroutine collect_effective(samples, all, n)
-        !! V_eff: of one coordinate, or of the one that is not cyclic, with the momenta of the
-        !! others.
+        !! The effective potential of one coordinate, or of the one that is not cyclic, with the
+        !! momenta of the others.
         type(samples_t), intent(in) :: samples
         type(usual_t), intent(inout) :: all(:)
         integer, intent(inout) :: n
