@@ -93,28 +93,12 @@ contains
         call judge_sheet(homework, d, insisted, samples, library, result%of)
         do i = 1, size(homework%statements)
             if (.not. result%of(i)%contradicts) cycle
-            call append_word(insisted, result%of(i)%defines)
-            call judge_sheet(homework, d, insisted, samples, library, attempt)
-            if (is_better(attempt, result%of, i)) then
-                do k = 1, size(result%of)
-                    result%of(k) = attempt(k)
-                end do
-            else
-                insisted = insisted(:size(insisted) - 1)
-            end if
+            call insist(trim(result%of(i)%defines), i)
         end do
         call multiplier_readings(d, readings)
         do i = 1, size(readings)
             if (.not. is_wrong_with("lambda")) exit
-            call append_word(insisted, readings(i)%text)
-            call judge_sheet(homework, d, insisted, samples, library, attempt)
-            if (is_better(attempt, result%of, 0)) then
-                do k = 1, size(result%of)
-                    result%of(k) = attempt(k)
-                end do
-            else
-                insisted = insisted(:size(insisted) - 1)
-            end if
+            call insist(readings(i)%text, 0)
         end do
         call take_from_start(homework, system, d, insisted, samples, library, result%of)
         call take_conditions(homework, system, d, said, insisted, library, samples, result%of)
@@ -122,6 +106,23 @@ contains
         call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result%of, result%equations, result%determined)
     contains
+        subroutine insist(name, line)
+            !! The sheet with a name in its usual meaning, if that is better.
+            character(*), intent(in) :: name
+            integer, intent(in) :: line  !! that defines it otherwise; 0: none
+            integer :: j
+
+            call append_word(insisted, name)
+            call judge_sheet(homework, d, insisted, samples, library, attempt)
+            if (is_better(attempt, result%of, line)) then
+                do j = 1, size(result%of)
+                    result%of(j) = attempt(j)
+                end do
+            else
+                insisted = insisted(:size(insisted) - 1)
+            end if
+        end subroutine insist
+
         logical function is_wrong_with(name)
             !! Is a line wrong that speaks of `name`?
             character(*), intent(in) :: name
