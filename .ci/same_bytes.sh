@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
-# Every shipped scene gives the same bytes by the build for the processor at hand and by that for any
-# x86-64, but for the line that names the build.
+# Every shipped scene gives the same bytes by two builds, the one for the processor at hand, say, and
+# one for any x86-64 with less optimisation, but for the line that names the build.
 #
-#   same_bytes.sh FOLDER        where other_processor.sh has made that project
+#   same_bytes.sh PROGRAM OTHER
 set -u
-here=$PWD
+programs=("$(realpath "$1")" "$(realpath "$2")")
+cd "$(dirname "$0")/.." || exit 2
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
-for name in here there; do
-    root=$([ $name = here ] && echo "$here" || realpath "$1")
-    cd "$root" || exit 1
-    program=$(fpm run --profile release --runner echo | tail -n 1)
-    "$program" --version || exit 1
-    "$program" --output "$work/$name" >"$work/$name.out" || exit 1
-done
-sed -i '/^# build: /d' "$work"/*/*.*
-count=$(find "$work/here" -name '*.dat' | wc -l)
+for k in 0 1; do
+    "${programs[k]}" --version || exit 1
+    "${programs[k]}" --output "$work/$k" >"$work/$k.out" || exit 1
+    sed '/^# build: /!d' "$work/$k/pendulum.dat"
+    sed -i '/^# build: /d' "$work/$k"/*.*
+done >"$work/builds"
+cat "$work/builds"
+[ "$(grep '^# build: ' "$work/builds" | sort -u | wc -l)" -eq 2 ] || { echo "that is one build"; exit 1; }
+count=$(find "$work/0" -name '*.dat' | wc -l)
 [ "$count" -ge 28 ] || { echo "$count data files only"; exit 1; }
-diff -rq "$work/here" "$work/there" && echo "$count data files, the same bytes"
+diff -rq "$work/0" "$work/1" && echo "$count data files, the same bytes"

@@ -37,16 +37,30 @@ near() { # near TOLERANCE EXPECTED ACTUAL...: numbers; as many of both, awk's pr
         for (i = 1; i <= n; i++) if (!((w[i] - h[i])^2 <= eps^2)) exit 1 }'
 }
 
-# Normal modes of somebody's own matrices
+prefix=$(bash .ci/installed.sh) || exit 1
+
+against_installed() { # against_installed NAME: a copy of this example that links the installed library
+    cp -r "data/examples/$1" "$work/$1" && rm -rf "$work/$1/build" || exit 1
+    sed -i -e '/^\[dependencies\]/,/^$/d' -e 's/^link = \[/external-modules = ["lagrangia"]\n&"lagrangia", "gomp", /' "$work/$1/fpm.toml"
+    fpm build -C "$work/$1" --profile release --flag "-I$prefix/include" --link-flag "-L$prefix/lib" >"$work/err" 2>&1 ||
+        { tail -n 20 "$work/err"; exit 1; }
+}
+
+# Normal modes of somebody's own matrices, with the library as a dependency
 fpm build -C data/examples/normal_modes >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }
 run "$(ls -t data/examples/normal_modes/build/gfortran_*/app/three_masses | head -n 1)"
 check "three masses: status 0, a line a mode" eval '[ $status -eq 0 ] && [ "$(wc -l <"$work/out")" -eq 3 ]'
 check "three masses: omega^2 = 2 - sqrt 2, 2, 2 + sqrt 2" near 1e-14 \
     "0.58578643762690495 2 3.41421356237309505" "$(awk '{ print $3 }' "$work/out")"
+for name in solve spherical_pendulum; do
+    check "$name: the library is a dependency as in normal_modes" cmp \
+        <(sed -n '/^link/p; /^\[dependencies\]/,/^$/p' data/examples/normal_modes/fpm.toml) \
+        <(sed -n '/^link/p; /^\[dependencies\]/,/^$/p' data/examples/$name/fpm.toml)
+done
 
 # The motion at given times
-fpm build -C data/examples/solve >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }
-run "$(ls -t data/examples/solve/build/gfortran_*/app/cart | head -n 1)"
+against_installed solve
+run "$(ls -t "$work"/solve/build/gfortran_*/app/cart | head -n 1)"
 check "solve: status 0, a line a time" eval '[ $status -eq 0 ] && [ "$(wc -l <"$work/out")" -eq 11 ]'
 check "solve: (m1 + m2) x + m2 l sin(theta) is conserved, 3 x + sin(theta) = sin(1)" eval '
     awk "{ d = 3*\$2 + sin(\$3) - sin(1); if (d*d > 1e-14) bad = 1 } END { exit bad }" "$work/out"'
@@ -55,22 +69,22 @@ check "the docstring of the module lagrangia is this program" eval '
         sed "/^end program cart/q" | diff - data/examples/solve/app/main.f90'
 
 # The installed library, as it is
-fpm install --profile release --prefix "$work/prefix" >"$work/err" 2>&1 || { tail -n 20 "$work/err"; exit 1; }
 rm -rf data/examples/installed/build
-fpm build -C data/examples/installed --flag "-I$work/prefix/include" --link-flag "-L$work/prefix/lib" >"$work/err" 2>&1 || { tail -n 20 "$work/err"; exit 1; }
+fpm build -C data/examples/installed --flag "-I$prefix/include" --link-flag "-L$prefix/lib" >"$work/err" 2>&1 || { tail -n 20 "$work/err"; exit 1; }
 run "$(ls -t data/examples/installed/build/gfortran_*/app/periods | head -n 1)"
 check "installed: omega^2 = (m1 + m2) g/(m1 l)" near 1e-8 "19.62 14.715 13.08 12.2625" "$(sed 's/.*=//; s/s^-2//' "$work/out")"
 check "installed: nothing of lagrangia is compiled again" eval '[ "$(find data/examples/installed/build -name "*.o" | wc -l)" -eq 1 ]'
 mkdir "$work/elsewhere"
-(cd "$work/elsewhere" && "$work/prefix/bin/lagrangia" run pendulum) >"$work/out" 2>"$work/err"
+(cd "$work/elsewhere" && "$prefix/bin/lagrangia" run pendulum) >"$work/out" 2>"$work/err"
 check "installed: a scene by its name, from any folder" eval 'grep -q "^pendulum .* holds$" "$work/out" && [ -s "$work/elsewhere/data/output/pendulum.dat" ]'
-python3 .ci/try_fortran.py "$work/prefix" >"$work/written" || failures=$((failures + 1))
+python3 .ci/try_fortran.py "$prefix" >"$work/written" || failures=$((failures + 1))
 sed '$d' "$work/written"
 count=$((count + $(grep -c . "$work/written") - 1))
 
 # Systems of one's own
-cd data/examples/spherical_pendulum || exit 2
-fpm build --profile release >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }
+against_installed spherical_pendulum
+root=$PWD
+cd "$work/spherical_pendulum" || exit 2
 mkdir "$work/bin"
 for name in spherical slip; do
     ln -s "$(realpath "$(ls -t build/gfortran_*/app/$name | head -n 1)")" "$work/bin/$name"
@@ -115,8 +129,8 @@ program twice
 end program twice
 END
 newest() { ls -t $(find build -name "$1") | head -n 1; }
-if gfortran -I"$(dirname "$(newest lagrangia.mod)")" -I"$(dirname "$(newest spherical_xy.mod)")" "$work/twice.f90" \
-    "$(newest libspherical_pendulum.a)" -llapack -lblas -lgsl -lgslcblas -lgomp -o "$work/bin/twice" 2>"$work/err"; then
+if gfortran -I"$prefix/include" -I"$(dirname "$(newest spherical_xy.mod)")" "$work/twice.f90" \
+    "$(newest libspherical_pendulum.a)" -L"$prefix/lib" -llagrangia -llapack -lblas -lgsl -lgslcblas -lgomp -o "$work/bin/twice" 2>"$work/err"; then
     run twice list systems
 fi
 check "a name that is taken: one line, status 2" eval '[ $status -eq 2 ] && [ ! -s "$work/out" ] && [ "$(cat "$work/err")" = "lagrangia: system '"'spherical_xy'"': there is a system of that name: give yours another one" ]'
@@ -154,7 +168,6 @@ print(f"{commands} commands, {len(blocks)} pieces of code, {bad} differ")
 sys.exit(bad > 0 or commands != 16 or len(blocks) != 4)
 END
 }
-root=$(realpath ../../..)
 mkdir "$work/walk" && cp -r data "$root/data/scenes/spring_pendulum.nml" "$work/walk" && cd "$work/walk" || exit 2
 check "docs/your_own_system.md: commands print what it says" walk "$root"
 

@@ -235,7 +235,7 @@ contains
     end subroutine flags_are_judged_both_ways
 
     subroutine no_false_alarm_over_twelve_decades()
-        !! `.ci/extremes` draws more of them.
+        !! `.ci/extremes` draws a hundred of each.
         character(32), allocatable :: names(:)
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
@@ -246,7 +246,7 @@ contains
 
         allocate (names, source=system_names())
         do i = 1, size(names)
-            do k = 1, 4
+            do k = 1, 2
                 call new_system(trim(names(i)), system, error)
                 audit = ledger_t()
                 call audit_at_random(system, random, audit, values)
@@ -256,7 +256,7 @@ contains
     end subroutine no_false_alarm_over_twelve_decades
 
     subroutine slips_are_named_over_twelve_decades()
-        !! Each mutant at parameters where it does something.
+        !! Each mutant at parameters where it does something; `.ci/extremes` draws more of them.
         class(system_t), allocatable :: system
         character(:), allocatable :: expected
         type(random_t) :: random
@@ -280,9 +280,9 @@ contains
                 call assertEqual(coordinate_of(expected), &
                                  coordinate_of(audit%rows(row)%remark), &
                                  show_parameters(system, values))
-                if (seen == 3) exit
+                if (seen == 1) exit
             end do
-            call assertEqual(3, seen, expected//": sets at which it is a slip")
+            call assertEqual(1, seen, expected//": sets at which it is a slip")
         end do
     end subroutine slips_are_named_over_twelve_decades
 

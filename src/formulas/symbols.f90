@@ -113,6 +113,7 @@ contains
         which = 0
         if (.not. allocated(self%names)) return
         do which = size(self%names), 1, -1
+            if (self%names(which)(1:1) /= name(1:min(1, len(name)))) cycle  ! most differ there
             if (self%names(which) == name) return
         end do
     end function find
