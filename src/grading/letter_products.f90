@@ -68,7 +68,8 @@ contains
     end function is_constant
 
     subroutine add(letters, formula, samples)
-        !! One more, unless it has no value, is zero, or there is one with the same values.
+        !! One more, unless it has no value, is zero, is the same number in all draws, of which any
+        !! number is a product, or there is one with the same values.
         type(letter_t), allocatable, intent(inout) :: letters(:)
         type(expression_t), intent(in) :: formula
         type(samples_t), intent(in) :: samples
@@ -80,6 +81,7 @@ contains
         value = results(:, formula%count)
         if (.not. all(ieee_is_finite(value))) return
         if (any(abs(value) <= 0.0_dp)) return
+        if (all(abs(value - value(1)) <= equal*abs(value))) return
         do i = 1, size(letters)
             if (any(abs(value - letters(i)%value) > equal*abs(value))) cycle
             if (formula%count == 1) letters(i)%formula = formula  ! a letter rather than its name

@@ -26,6 +26,7 @@ module lagrangia_motion_samples
 
     integer, parameter :: most_expanded = 8  !! coordinates whose mass matrix is kept
     integer, parameter :: most_tries = 60    !! of parameters with an oscillation
+    real(dp), parameter :: small = 1e-12_dp  !! values that may be rounding errors
 
 contains
 
@@ -196,7 +197,43 @@ contains
     end subroutine add_states
 
     subroutine put_state(samples, system, d, row, t, q, v, error)
-        !! All values at one state; those of the modes and of constants stay.
+        !! All values at one state; those of the modes and of constants stay. One that changes as
+        !! much as it is large when parameters change in their last digits is 0, as the
+        !! acceleration along a vertical wedge.
+        type(samples_t), intent(inout) :: samples  !! names, and values that change
+        class(system_t), intent(in) :: system    !! with the parameters of this row
+        type(description_t), intent(in) :: d     !! with any parameters
+        integer, intent(in) :: row               !! which of the states
+        real(dp), intent(in) :: t, q(:), v(:)    !! time, s; state
+        type(error_t), allocatable, intent(out) :: error  !! some value is not finite
+        class(system_t), allocatable :: beside
+        type(description_t) :: now
+        type(error_t), allocatable :: refusal
+        real(dp), dimension(size(samples%role)) :: values, noise
+        real(dp), allocatable :: parameters(:)
+        integer :: i, k
+
+        call put_values(samples, system, d, row, t, q, v, error)
+        if (allocated(error)) return
+        values = samples%values(row, :)
+        if (.not. any(abs(values) > 0.0_dp .and. abs(values) < small)) return
+        noise = 0.0_dp
+        call system%describe(now)
+        allocate (parameters, source=default_values(now))
+        allocate (beside, source=system)
+        do k = 1, 8
+            if (all(noise > 0.0_dp .or. .not. abs(values) > 0.0_dp .or. abs(values) >= small)) exit
+            call beside%configure(parameters*[(1.0_dp + (-1)**(i/k)*2*epsilon(1.0_dp), &
+                                               i=1, size(parameters))], refusal)
+            if (.not. allocated(refusal)) call put_values(samples, beside, d, row, t, q, v, refusal)
+            if (.not. allocated(refusal)) noise = max(noise, abs(samples%values(row, :) - values))
+        end do
+        where (abs(values) < small .and. abs(values) <= 64*noise) values = 0.0_dp
+        samples%values(row, :) = values
+    end subroutine put_state
+
+    subroutine put_values(samples, system, d, row, t, q, v, error)
+        !! As they come out.
         type(samples_t), intent(inout) :: samples  !! names, and values that change
         class(system_t), intent(in) :: system    !! with the parameters of this row
         type(description_t), intent(in) :: d     !! with any parameters
@@ -329,7 +366,7 @@ contains
 
             if (abs(x) <= 1e-12_dp*scale) x = 0.0_dp
         end subroutine drop_rounding
-    end subroutine put_state
+    end subroutine put_values
 
     subroutine put_elsewhere(samples, d)
         !! The same states with other accelerations and other known values than those of the motion.

@@ -2,8 +2,8 @@ module lagrangia_rounded_numbers
     !! Statements with numbers that somebody has rounded: `omega = 3.13` for 3.1321.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_explanation, only: explanation_t
-    use lagrangia_expression, only: constant, expression_t, kind_number, kind_symbol, &
-                                    operator(-)
+    use lagrangia_expression, only: constant, expression_t, kind_negation, kind_number, &
+                                    kind_symbol, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
     use lagrangia_sample_names, only: draws, samples_t, states
@@ -24,7 +24,7 @@ contains
 
     function holds_to_digits(left, right, text, samples) result(yes)
         !! Do the sides differ by no more than the roundings of the numbers with at least three
-        !! digits, or of one that is alone on the right side and has two?
+        !! digits, or with two where no other number is rounded or the right side is a number?
         type(expression_t), intent(in) :: left, right   !! both sides
         character(*), intent(in) :: text                !! both, as typed
         type(samples_t), intent(in) :: samples          !! on the motion
@@ -38,11 +38,9 @@ contains
         yes = .false.
         residual = left - right
         allocate (half(residual%count))
-        do i = 1, residual%count
-            half(i) = 0.0_dp
-            if (residual%nodes(i)%kind /= kind_number) cycle
-            half(i) = rounding(residual%nodes(i)%number%value, text, right%count == 1)
-        end do
+        call find_roundings(.true.)
+        if (count(half > 0.0_dp) > 1 .and. any(right%nodes(:right%count)%kind /= kind_number .and. &
+            right%nodes(:right%count)%kind /= kind_negation)) call find_roundings(.false.)
         if (.not. any(half > 0.0_dp)) return
         allocate (before(size(samples%values, 1), residual%count))
         allocate (after, mold=before)
@@ -63,6 +61,16 @@ contains
                 all(abs(before(:, residual%count)) <= 1.000001_dp*allowed .or. .not. judged)
             if (yes) return
         end do
+    contains
+        subroutine find_roundings(alone)
+            logical, intent(in) :: alone  !! two digits are enough
+
+            do i = 1, residual%count
+                half(i) = 0.0_dp
+                if (residual%nodes(i)%kind /= kind_number) cycle
+                half(i) = rounding(residual%nodes(i)%number%value, text, alone)
+            end do
+        end subroutine find_roundings
     end function holds_to_digits
 
     function holds_at(residual, text, values) result(yes)

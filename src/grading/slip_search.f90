@@ -4,19 +4,16 @@ module lagrangia_slip_search
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: apply, expression_t, f_abs, f_cos, f_cosh, f_sin, f_sinh, &
-                                    f_sqrt, &
-                                    function_names, kind_function, kind_number, &
-                                    kind_power, kind_quotient, kind_symbol
+                                    f_sqrt, function_names, kind_function, kind_number, &
+                                    kind_power, kind_quotient, kind_symbol, operator(/)
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
-                                        role_parameter, &
-                                        role_time, role_velocity, samples_t
+                                      role_parameter, role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
-                                         change_exponent, change_factor, &
-                                         change_function, change_multiplied, change_number, &
-                                             change_sign, change_symbol, change_t, &
-                                         evaluate_nodes, summands
+                                         change_exponent, change_factor, change_function, &
+                                         change_multiplied, change_number, change_sign, &
+                                         change_symbol, change_t, evaluate_nodes, summands
     use lagrangia_term_search, only: library_t, number_text, part_text, try_factors, &
                                      try_missing_terms, try_products
     use lagrangia_wide_changes, only: place_from, throughout, two_factors
@@ -256,11 +253,12 @@ contains
         end function is_mended
 
         subroutine try_exponents(text)
-            !! A power that is another, a square that is none, or a missing square.
+            !! A power that is another, a square that is none, a quotient that is upside down, or
+            !! a missing square.
             character(:), allocatable, intent(out) :: text
             integer :: i, k, n
             real(dp) :: exponent
-            real(dp), parameter :: others(4) = [2.0_dp, 3.0_dp, 0.5_dp, -1.0_dp]
+            real(dp), parameter :: others(3) = [2.0_dp, 3.0_dp, -1.0_dp]
             real(dp), parameter :: steps(4) = [-1.0_dp, 1.0_dp, -2.0_dp, 2.0_dp]
 
             text = ""
@@ -275,6 +273,13 @@ contains
                            number_text(exponent + steps(n))//context(expression, samples, i)
                     return
                 end do
+            end do
+            do i = expression%count, 1, -1
+                if (expression%nodes(i)%kind /= kind_quotient) cycle
+                if (.not. mends(change_t(change_exponent, i, 0, -1.0_dp))) cycle
+                text = must_be(i, expression%pruned(expression%nodes(i)%right)/ &
+                               expression%pruned(expression%nodes(i)%left))
+                return
             end do
             do i = 1, expression%count
                 k = expression%nodes(i)%kind

@@ -128,19 +128,29 @@ contains
             real(dp), intent(in) :: letter(:)
             character(*), intent(in) :: name
             real(dp) :: one(size(letter))
+            logical :: is_number
 
+            is_number = is_constant(letter)  ! and any number is one of several times this one
             one = needed/letter
-            if (is_constant(one) .and. is_simple(one(1))) then
+            if (is_constant(one) .and. is_likely(one(1), is_number)) then
                 remark = text//" lacks the factor "//times(one(1))//name
                 return
             end if
             one = needed*letter
-            if (is_constant(one) .and. is_simple(one(1))) then
+            if (is_constant(one) .and. is_likely(one(1), is_number)) then
                 remark = text//" has the factor "//name//" too many"
                 if (abs(one(1) - 1.0_dp) > equal) remark = text//" must be divided by "// &
                                                            times(1.0_dp/one(1))//name
             end if
         end subroutine try_letter
+
+        logical function is_likely(factor, is_number)
+            real(dp), intent(in) :: factor
+            logical, intent(in) :: is_number  !! the letter has one value
+
+            is_likely = is_simple(factor)
+            if (is_number) is_likely = abs(abs(factor) - 1.0_dp) < equal
+        end function is_likely
     end subroutine try_factors
 
     subroutine try_products(expression, first, samples, values, library, remark)
