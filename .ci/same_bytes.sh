@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every shipped scene gives the same bytes by two builds, the one for the processor at hand, say, and
-# one for any x86-64 with less optimisation, but for the line that names the build.
+# Every shipped scene gives the same bytes by two release builds, the one for the processor at hand,
+# say, and one for any x86-64, but for the line that names the build.
 #
 #   same_bytes.sh PROGRAM OTHER
 set -u
