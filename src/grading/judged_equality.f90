@@ -47,8 +47,8 @@ contains
 
         attempt%remark = ""
         attempt%example = ""
-        call judge_pair(left, right, chained, samples, library, explain .and. .not. small, &
-                        judgement)
+        call judge_pair(left, right, chained .or. is_rate(left, right, text), samples, library, &
+                        explain .and. .not. small, judgement)
         if (judgement%verdict == is_right) return
         do i = 1, tensions(samples)
             call read_as_tension(left, right, samples, i, one, other)
@@ -94,6 +94,17 @@ contains
             holds_elsewhere = holds_to_digits(left, right, text, there)
         end function holds_elsewhere
     end subroutine judge_forms
+
+    pure function is_rate(left, right, text) result(yes)
+        !! A derivative with respect to the time that somebody has written out on the right side,
+        !! `d/dt (theta_dot sin(theta)) = ...`: that side is to be mended.
+        type(expression_t), intent(in) :: left, right  !! both sides
+        character(*), intent(in) :: text               !! as typed
+        logical :: yes
+
+        yes = left%count > 1 .and. index(adjustl(text), "d/dt") == 1 .and. &
+              any(right%nodes(:right%count)%kind == kind_symbol)
+    end function is_rate
 
     pure subroutine put_unreadable(error, judgement)
         !! What the reader says; a short name that nobody knows may be a constant.
@@ -194,6 +205,8 @@ contains
             first = merge(left%count + 1, 1, chained)
             associate (residual => judgement%residual, explanation => judgement%explanation)
                 call explain_slip(residual, first, samples, values, library, explanation)
+                if (explanation%is_empty() .and. first > 1) call explain_slip( &
+                    residual, 1, samples, values, library, explanation)
                 if (explanation%is_empty()) call explain_squares(left, right, samples, library, &
                                                                  explanation)
                 if (explanation%is_empty() .and. is_energy(left, samples)) then
