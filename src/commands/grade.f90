@@ -170,6 +170,7 @@ contains
 
         if (.not. any(result%of%verdict == is_consequence)) return
         first = findloc(result%of%verdict, is_wrong, 1)
+        if (first == 0) return
         call put_line("the first step that does not follow: line "// &
                       to_text(homework%statements(first)%line))
     end subroutine put_first_mistake

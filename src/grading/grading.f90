@@ -7,31 +7,29 @@ module lagrangia_grading
     use lagrangia_description, only: description_t
     use lagrangia_determined_accelerations, only: find_determined
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, kind_number, symbol
+    use lagrangia_expression, only: expression_t, kind_number
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
     use lagrangia_judged_sheet, only: judge_sheet
-    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
-                                   is_wrong, judgement_t
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, &
+                                   judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: new_samples
-    use lagrangia_motion_starts, only: begin_there
     use lagrangia_motion_values, only: is_frequency_name
     use lagrangia_names, only: name_length
     use lagrangia_parameter_choice, only: leave_out, occurs
     use lagrangia_parameter_conditions, only: condition_t, find_condition, is_own_formula, &
                                                put_condition
-    use lagrangia_sample_names, only: role_acceleration, samples_t
+    use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: summands
-    use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_stated_motion, only: rests_on_right, take_from_start
     use lagrangia_symbols, only: check_name
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     use lagrangia_unknown_names, only: unknown_names
     use lagrangia_usual_meanings, only: multiplier_readings
-    use lagrangia_verdict, only: but_for_constant
     implicit none (type, external)
     private
     public :: grade_t
@@ -102,6 +100,9 @@ contains
         end do
         call take_from_start(homework, system, d, insisted, samples, library, result%of)
         call take_conditions(homework, system, d, said, insisted, library, samples, result%of)
+        do i = 1, size(result%of)
+            if (rests_on_right(i, result%of)) call result%of(i)%stand_alone()
+        end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result%of, result%equations, result%determined)
@@ -135,45 +136,6 @@ contains
             end do
         end function is_wrong_with
     end subroutine grade
-
-    subroutine take_from_start(homework, system, d, insisted, samples, library, result)
-        !! What is wrong of all motions may be right of the one that begins as lines of the sheet
-        !! say. Equations of motion are those of all motions, and so are L and small oscillations.
-        type(homework_t), intent(in) :: homework
-        class(system_t), intent(in) :: system
-        type(description_t), intent(in) :: d
-        type(word_t), intent(in) :: insisted(:)
-        type(samples_t), intent(in) :: samples
-        type(library_t), intent(in) :: library(:)
-        type(judgement_t), intent(inout) :: result(:)  !! of each statement
-        type(samples_t) :: there
-        type(judgement_t), allocatable :: attempt(:)
-        logical :: found, one_energy
-        integer :: i
-
-        if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
-                      result%verdict == is_unreadable)) return
-        call begin_there(homework, system, samples, there, found)
-        if (.not. found) return
-        one_energy = samples%symbols%find("E") > 0
-        if (one_energy) one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), &
-                                                              there)
-        call judge_sheet(homework, d, insisted, there, library, attempt)
-        do i = 1, size(result)
-            if (homework%statements(i)%small) cycle
-            if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) cycle
-            if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
-                result(i) = attempt(i)
-                cycle
-            end if
-            if (attempt(i)%verdict /= is_right) cycle
-            ! on one motion E is any number, but for a constant
-            if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
-            if (speaks_of_all(result(i)%residual, samples)) cycle
-            result(i) = attempt(i)
-            result(i)%remark = "of the motion that begins so"
-        end do
-    end subroutine take_from_start
 
     subroutine take_conditions(homework, system, d, said, insisted, library, samples, result)
         !! Behind `i_roll = m r^2/2` the lines are about systems for which that is true.
@@ -234,21 +196,6 @@ contains
             end do
         end subroutine take_before
     end subroutine take_conditions
-
-    pure function speaks_of_all(residual, samples) result(yes)
-        !! Has it accelerations, L or its derivatives?
-        type(expression_t), intent(in) :: residual
-        type(samples_t), intent(in) :: samples
-        logical :: yes
-        integer :: k
-
-        yes = .false.
-        do k = 1, size(samples%role)
-            if (.not. residual%depends_on(k)) cycle
-            yes = yes .or. samples%role(k) == role_acceleration .or. &
-                  samples%symbols%names(k) == "L" .or. index(samples%symbols%names(k), "dL_") > 0
-        end do
-    end function speaks_of_all
 
     pure function is_better(attempt, result, i) result(yes)
         !! Are more statements right if line `i` is no definition, and none of them less?

@@ -6,8 +6,8 @@ module lagrangia_judged_sheet
     use lagrangia_description, only: description_t
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_homework, only: homework_t
-    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
-                                   is_wrong, judge, judgement_t
+    use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong, judge, &
+                                   judgement_t
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
     use lagrangia_statement_forms, only: read_new_name, without_number
@@ -72,6 +72,8 @@ contains
         do i = 1, n
             call show_constants(result(i)%remark)
             call show_constants(result(i)%example)
+            call show_constants(result(i)%own_remark)
+            call show_constants(result(i)%own_example)
         end do
     contains
         subroutine judge_one(at)
@@ -214,14 +216,12 @@ contains
         type(homework_t), intent(in) :: homework
         type(judgement_t), intent(inout) :: judgement
 
-        judgement%verdict = is_consequence
-        judgement%example = ""
         associate (lines => homework%statements(judgement%because)%line)
             if (size(lines) == 1) then
-                judgement%remark = "from line "//to_text(lines(1))//", which is wrong"
+                call judgement%put_reason("from line "//to_text(lines(1))//", which is wrong")
             else
-                judgement%remark = "from lines "//to_text(minval(lines))//" and "// &
-                                   to_text(maxval(lines))//", which are wrong"
+                call judgement%put_reason("from lines "//to_text(minval(lines))//" and "// &
+                                          to_text(maxval(lines))//", which are wrong")
             end if
         end associate
     end subroutine put_consequence

@@ -30,15 +30,16 @@ module lagrangia_motion_starts
 
 contains
 
-    subroutine begin_there(homework, system, samples, there, found)
+    subroutine begin_there(homework, system, samples, there, found, at_rest)
         !! States of motions that begin as the lines of a sheet say, at random times; names that
         !! these lines give initial values are those of parameters. What they do not give is at
-        !! random. None is known with constraints beside L, or where nothing moves; no impacts.
+        !! random. None is known with constraints beside L; no impacts.
         type(homework_t), intent(in) :: homework   !! as read
         class(system_t), intent(in) :: system      !! configured
         type(samples_t), intent(in) :: samples     !! any states, with the sheet's constants
         type(samples_t), intent(out) :: there      !! states of the motions
         logical, intent(out) :: found              !! there are such lines, and motions
+        logical, intent(out) :: at_rest            !! on none of them anything moves
         type(expression_t) :: start(2*system%ndof)
         type(description_t) :: d
         class(system_t), allocatable :: drawn
@@ -47,10 +48,12 @@ contains
         real(dp) :: begun(size(samples%values, 1), 2*system%ndof)
         real(dp), allocatable :: row(:)
         integer, allocatable :: places(:)
-        integer :: i, k, n
+        integer :: i, k, moving, n
 
         n = system%ndof
         found = .false.
+        at_rest = .false.
+        moving = 0
         if (system%constraints > 0) return
         there = samples
         call read_starts(homework, there, start, found)
@@ -76,6 +79,8 @@ contains
                 if (is_kept(i)) there%values(k, i) = row(i)
             end do
         end do
+        at_rest = moving == 0
+        found = at_rest .or. moving == size(begun, 1)
         call put_zeros(there)
         call put_elsewhere(there, d)
     contains
@@ -108,8 +113,10 @@ contains
             if (.not. allocated(error)) then
                 call method%start(drawn, 0.0_dp, q, v, t)
                 call method%advance(drawn, 0.0_dp, t, 0_i8, 1_i8, q, v)
-                found = all(ieee_is_finite([q, v])) .and. &
-                        any(abs([q, v] - begun(k, :)) > moved*max(1.0_dp, abs(begun(k, :))))
+                found = all(ieee_is_finite([q, v]))
+                if (any(abs([q, v] - begun(k, :)) > moved*max(1.0_dp, abs(begun(k, :))))) then
+                    moving = moving + 1
+                end if
                 if (found) call put_state(there, drawn, d, k, t, q, v, error)
             end if
             found = found .and. .not. allocated(error)

@@ -37,8 +37,11 @@ module lagrangia_verdict
         logical :: of_oscillation = .false.   !! or is a frequency or a period of one
         logical :: of_none = .false.          !! or looks like one, and is of no oscillation
         integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
+        character(:), allocatable :: own_remark, own_example  !! of one that follows: its own slip
     contains
+        procedure :: put_reason
         procedure :: say_why
+        procedure :: stand_alone
     end type judgement_t
 
 contains
@@ -50,6 +53,29 @@ contains
         self%is_unexplained = self%explanation%is_empty()
         self%remark = explanation_text(self%explanation)
     end subroutine say_why
+
+    pure subroutine put_reason(self, remark)
+        !! It follows from what is wrong before it.
+        class(judgement_t), intent(inout) :: self  !! a wrong one
+        character(*), intent(in) :: remark         !! from which lines
+
+        self%verdict = is_consequence
+        self%own_remark = self%remark
+        self%own_example = self%example
+        self%remark = remark
+        self%example = ""
+    end subroutine put_reason
+
+    pure subroutine stand_alone(self)
+        !! What it would follow from is not wrong.
+        class(judgement_t), intent(inout) :: self  !! one that follows
+
+        self%verdict = is_wrong
+        deallocate (self%because)
+        allocate (self%because(0))
+        call move_alloc(self%own_remark, self%remark)
+        call move_alloc(self%own_example, self%example)
+    end subroutine stand_alone
 
     subroutine put_example(left, right, samples, values, text)
         !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.

@@ -1,0 +1,132 @@
+module lagrangia_stated_motion
+    !! A sheet about the one motion that begins as its lines `q(0) = ...` say: what is right of it,
+    !! and which slip the rest has there.
+    use lagrangia_description, only: description_t
+    use lagrangia_expression, only: expression_t, symbol
+    use lagrangia_homework, only: homework_t
+    use lagrangia_judged_sheet, only: judge_sheet
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
+                                   is_wrong, judgement_t
+    use lagrangia_motion_starts, only: begin_there
+    use lagrangia_sample_names, only: role_acceleration, samples_t
+    use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_system, only: system_t
+    use lagrangia_term_search, only: library_t
+    use lagrangia_text, only: word_t
+    use lagrangia_verdict, only: but_for_constant
+    implicit none (type, external)
+    private
+    public :: rests_on_right, take_from_start
+
+contains
+
+    subroutine take_from_start(homework, system, d, insisted, samples, library, result)
+        !! What is wrong of all motions may be right of the one that begins as lines of the sheet
+        !! say. Equations of motion are those of all motions, and so are L and small oscillations.
+        type(homework_t), intent(in) :: homework       !! as read
+        class(system_t), intent(in) :: system          !! configured
+        type(description_t), intent(in) :: d           !! of it
+        type(word_t), intent(in) :: insisted(:)        !! names with their usual meaning
+        type(samples_t), intent(in) :: samples         !! of all motions, without the sheet's names
+        type(library_t), intent(in) :: library(:)      !! right terms
+        type(judgement_t), intent(inout) :: result(:)  !! of each statement
+        type(samples_t) :: there
+        type(judgement_t), allocatable :: attempt(:)
+        logical :: at_rest, found, one_energy
+        integer :: i
+
+        if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
+                      result%verdict == is_unreadable)) return
+        call begin_there(homework, system, samples, there, found, at_rest)
+        if (.not. found) return
+        one_energy = samples%symbols%find("E") > 0
+        if (one_energy) one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), &
+                                                              there)
+        call judge_sheet(homework, d, insisted, there, library, attempt)
+        do i = 1, size(result)
+            if (homework%statements(i)%small) cycle
+            if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) cycle
+            if (at_rest .and. speaks_of_place(result(i)%residual, samples)) cycle
+            if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
+                result(i) = attempt(i)
+                cycle
+            end if
+            if (attempt(i)%verdict /= is_right) then
+                call take_slip(attempt(i), i, samples, result)
+                cycle
+            end if
+            ! on one motion E is any number, but for a constant
+            if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
+            if (speaks_of_all(result(i)%residual, samples)) cycle
+            result(i) = attempt(i)
+            result(i)%remark = "of the motion that begins so"
+        end do
+    end subroutine take_from_start
+
+    pure function rests_on_right(i, result) result(yes)
+        !! Does a statement follow from one that is not wrong after all?
+        integer, intent(in) :: i                   !! the statement
+        type(judgement_t), intent(in) :: result(:) !! of each
+        logical :: yes
+
+        yes = result(i)%verdict == is_consequence
+        if (yes) yes = any(result(result(i)%because)%verdict /= is_wrong)
+    end function rests_on_right
+
+    subroutine take_slip(there, i, samples, result)
+        !! What is wrong of a stated motion, too, has its example there, and its slip where none is
+        !! known of all motions.
+        type(judgement_t), intent(in) :: there          !! of the stated motion
+        integer, intent(in) :: i                        !! the statement
+        type(samples_t), intent(in) :: samples          !! of all motions
+        type(judgement_t), intent(inout) :: result(:)   !! wrong, or one that follows
+
+        if (speaks_of_all(result(i)%residual, samples)) return
+        select case (there%verdict)
+        case (is_wrong)
+            if (result(i)%verdict == is_consequence) then
+                if (rests_on_right(i, result)) result(i) = there
+            else if (result(i)%is_unexplained .or. result(i)%explanation%is_vague .or. &
+                     (result(i)%explanation%is_empty() .and. &
+                      .not. there%explanation%is_empty())) then
+                result(i) = there
+            else if (there%example /= "") then
+                result(i)%example = there%example
+            end if
+        case (is_consequence)
+            if (.not. rests_on_right(i, result)) return
+            if (all(result(there%because)%verdict == is_wrong)) result(i) = there
+        case default
+            return
+        end select
+    end subroutine take_slip
+
+    pure function speaks_of_place(residual, samples) result(yes)
+        !! Of what is at rest nothing is true but E = 0, p = 0: has it the time, coordinates or
+        !! velocities, or is it not known?
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: k
+
+        yes = residual%count == 0
+        do k = 1, 1 + 2*samples%ndof
+            if (.not. yes) yes = residual%depends_on(k)
+        end do
+    end function speaks_of_place
+
+    pure function speaks_of_all(residual, samples) result(yes)
+        !! Has it accelerations, L or its derivatives?
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        do k = 1, size(samples%role)
+            if (.not. residual%depends_on(k)) cycle
+            yes = yes .or. samples%role(k) == role_acceleration .or. &
+                  samples%symbols%names(k) == "L" .or. index(samples%symbols%names(k), "dL_") > 0
+        end do
+    end function speaks_of_all
+end module lagrangia_stated_motion
