@@ -15,6 +15,7 @@ module lagrangia_free_constants
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_solved_accelerations, only: without_accelerations
+    use lagrangia_stated_starts, only: find_stated
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: join, to_text
@@ -155,8 +156,10 @@ contains
         end function unknown_rate
 
         logical function begins_there()
-            !! It must be true at the start itself: at theta_0, and at rest if no velocity is named.
-            type(expression_t) :: begun
+            !! It must be true at the start itself: at theta_0, and at rest if no velocity is named,
+            !! or as lines of the sheet state it.
+            type(expression_t) :: begun, stated
+            type(symbols_t) :: there
             type(expression_t), allocatable :: put(:)
             integer, allocatable :: places(:)
             logical :: known
@@ -168,7 +171,14 @@ contains
             allocate (put(1 + 2*samples%ndof))
             places = [1]
             put(1) = whole(0)  ! t
+            there = symbols
             do k = 2, 1 + 2*samples%ndof
+                call find_stated(k, samples, there, stated)
+                if (is_given(stated, k)) then
+                    places = [places, k]
+                    put(size(places)) = stated
+                    cycle
+                end if
                 do j = 1, size(starts)
                     if (starts(j) /= k) cycle
                     places = [places, k]
@@ -184,13 +194,26 @@ contains
             end do
             if (begins_there) then
                 begun = substituted(begun, places, put(:size(places)))
-                call draw_constants(samples, size(names), values)
+                call draw_constants(samples, size(there%names) - n, values)
                 call holds(begun, values, begins_there, known)
             end if
             if (.not. begins_there) judgement%remark = "is '"//trim(names(1))//"' where the "// &
                 "motion begins? It does not hold there; a line 'constant: "//trim(names(1))// &
                 "' makes it any constant"
         end function begins_there
+
+        logical function is_given(value, of)
+            !! `x(0) = 2 x_0` says what the x_0 of the statement is, `x_dot(0) = 0` what x_dot is
+            !! where it names none.
+            type(expression_t), intent(in) :: value  !! that a line states, or empty
+            integer, intent(in) :: of                !! place of the coordinate or velocity
+            integer :: j
+
+            is_given = value%count > 0
+            do j = 1, size(starts)
+                if (starts(j) == of) is_given = is_given .and. value%depends_on(n + j)
+            end do
+        end function is_given
 
         subroutine turn_axes()
             !! The ellipse's \(\varphi\) is mostly counted from the perihelion: a coordinate that

@@ -6,10 +6,11 @@ module lagrangia_initial_conditions
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: draw_values, rate_of, values_of
+    use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
-    use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t
+    use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t, one_of_many
     implicit none (type, external)
     private
     public :: judge_start, with_known_starts, with_short_starts
@@ -32,34 +33,56 @@ contains
     end function with_short_starts
 
     function with_known_starts(text, samples) result(known)
-        !! `A = (r(0) + r_dot(0)/omega)/2` with the values of a motion that a line before has.
+        !! `A = (r(0) + r_dot(0)/omega)/2` with the values of a motion that a line before has; so is
+        !! `tan(phi) = -x_dot_0/(omega x_0)` with a constant of its own.
         character(*), intent(in) :: text         !! a statement
         type(samples_t), intent(in) :: samples   !! know the motions
         character(:), allocatable :: known
         type(expression_t) :: begun, beginning(1)
         character(:), allocatable :: called
         integer :: at, k, order
+        logical :: by_name
 
         known = text
         beginning(1) = whole(0)  ! t
-        if (index(known, "(0)") <= index(known, "=")) return
         do k = 1, samples%ndof
             if (samples%motion(k)%count == 0) cycle
+            by_name = any([(samples%motion(k)%depends_on(samples%kept_constants(at)) .and. &
+                            occurs(text, trim(samples%symbols%names(samples%kept_constants(at)))), &
+                            at=1, size(samples%kept_constants))])
+            if (.not. by_name .and. index(known, "(0)") <= index(known, "=")) cycle
             do order = 0, 1
                 called = trim(samples%symbols%names(1 + k + order*samples%ndof))//"(0)"
                 begun = substituted(rate_of(samples%motion(k), order), [1], beginning)
                 if (any([(begun%depends_on(at), at=size(samples%role) + 1, &
                           size(samples%role) + size(samples%constants))])) cycle
-                do
-                    at = index(known, called)
-                    if (at < 2) exit
-                    if (verify(known(at - 1:at - 1), " =+-*/(") > 0) exit
-                    known = known(:at - 1)//"("// &
-                            formula_text(simplified(begun, samples%symbols), samples%symbols)// &
-                            ")"//known(at + len(called):)
-                end do
+                call put_begun(called)
+                called = called(:len(called) - 3)//"_0"
+                if (.not. by_name .or. samples%symbols%find(called) > 0) cycle
+                if (any(samples%constants == called) .or. any(samples%declared == called)) cycle
+                call put_begun(called)
             end do
         end do
+    contains
+        subroutine put_begun(name)
+            !! Behind the first equality sign.
+            character(*), intent(in) :: name
+            character(:), allocatable :: value
+            integer :: at, first
+
+            if (.not. occurs(known(index(known, "=") + 1:), name)) return
+            value = "("//formula_text(simplified(begun, samples%symbols), samples%symbols)//")"
+            first = index(known, "=") + 1
+            do
+                at = index(known(first:), name)
+                if (at == 0) return
+                at = first + at - 1
+                first = at + len(name)
+                if (.not. occurs(known(at - 1:min(first, len(known))), name)) cycle
+                known = known(:at - 1)//value//known(first:)
+                first = at + len(value)
+            end do
+        end subroutine put_begun
     end function with_known_starts
 
     subroutine judge_start(coordinate, order, f, samples, names, is_one, judgement)
@@ -79,7 +102,7 @@ contains
         is_one = .not. any([(f%depends_on(k), k=1, 1 + 3*samples%ndof)])
         if (.not. is_one) return
         judgement%verdict = is_definition
-        judgement%remark = "an initial condition, of one motion of many"
+        judgement%remark = one_of_many
         if (samples%motion(coordinate)%count == 0) return
         call draw_values(samples, names, values)
         beginning(1) = whole(0)  ! t

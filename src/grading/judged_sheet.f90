@@ -9,13 +9,13 @@ module lagrangia_judged_sheet
     use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong, judge, &
                                    judgement_t
     use lagrangia_parameter_choice, only: occurs
-    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sample_names, only: samples_t, start_t
     use lagrangia_statement_forms, only: read_new_name, without_number
     use lagrangia_symbols, only: symbols_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text, word_t
     use lagrangia_usual_names, only: add_usual_names, mark_used
-    use lagrangia_verdict, only: as_new_name
+    use lagrangia_verdict, only: as_new_name, one_of_many
     implicit none (type, external)
     private
     public :: judge_sheet
@@ -65,7 +65,7 @@ contains
             if (result(i)%verdict /= is_right) cycle
             do k = 1, i - 1  ! how the motion of this line begins
                 if (result(k)%verdict /= is_definition) cycle
-                if (index(plain(k)%text, "(0)") > 0) call judge_one(k)
+                if (index(plain(k)%text, "(0)") > 0) call judge_again(k)
             end do
         end do
         call compare_siblings(result)
@@ -105,6 +105,23 @@ contains
                 end if
             end associate
         end subroutine judge_one
+
+        subroutine judge_again(at)
+            !! A condition that was given before a motion, which begins so, is not wrong by it.
+            integer, intent(in) :: at
+            type(start_t), allocatable :: starts(:), none(:)
+            type(judgement_t) :: before
+
+            if (result(at)%remark == one_of_many .and. &
+                .not. any(samples%starts%line == sheet%statements(at)%line)) return
+            before = result(at)
+            allocate (none(0))
+            starts = samples%starts
+            samples%starts = none
+            call judge_one(at)
+            samples%starts = starts
+            if (result(at)%verdict == is_wrong) result(at) = before
+        end subroutine judge_again
 
         subroutine judge_corrected(at)
             !! The definition of a name that a line before defines wrongly, as a new one: `omega_1`

@@ -66,6 +66,9 @@ contains
         if (size(samples%energies) > 0) then
             where (samples%energies%line == 0) samples%energies%line = statement%line
         end if
+        if (size(samples%starts) > 0) then
+            where (samples%starts%line == 0) samples%starts%line = statement%line
+        end if
         if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
             partial, before, samples, library, explain, judgement)
         if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &

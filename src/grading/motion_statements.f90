@@ -18,6 +18,7 @@ module lagrangia_motion_statements
     use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_stated_starts, only: compare_start, is_given, state_start
     use lagrangia_statement_forms, only: period
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
@@ -72,6 +73,7 @@ contains
         end if
         if (starts) then
             call judge_start(coordinate, order, f, samples, size(symbols%names), is_one, judgement)
+            if (is_one) call state_start(coordinate, order, text, samples, judgement)
             return
         end if
         if (.not. is_of_time(f, samples)) return
@@ -79,7 +81,10 @@ contains
         is_one = .true.
         if (is_same_motion(f, samples%motion(coordinate), samples)) then
             call compare_rate(coordinate, order, f, typed, samples, values, judgement)
-            return
+            if (judgement%verdict /= is_wrong .or. order > 0) return
+            if (.not. is_given(coordinate, f, symbols, samples)) return
+            if (is_given(coordinate, samples%motion(coordinate), symbols, samples)) return
+            judgement%remark = ""
         end if
         call put_exact_frequencies(typed, samples, f)
         call compare_exact(coordinate, order, f, typed, samples, values, known, judgement)
@@ -98,6 +103,10 @@ contains
                 judgement%remark = "it does not go with the motion of another coordinate"
                 return
             end if
+        end if
+        if (solved .and. order < 2) then
+            call compare_start(coordinate, order, f, symbols, values, samples, judgement)
+            if (judgement%verdict == is_wrong) return
         end if
         if (exact .and. order < 2) call keep_motion(coordinate, order, f, samples)
         if (solved .and. order == 0) then

@@ -13,7 +13,7 @@ module lagrangia_sample_names
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: compiled_t, energy_statement_t, samples_t, usual_t
+    public :: compiled_t, energy_statement_t, samples_t, start_t, usual_t
     public :: name_symbols
     public :: axes, draws, states
     public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
@@ -56,6 +56,15 @@ module lagrangia_sample_names
         character(name_length), allocatable :: names(:)  !! of the constants, behind all symbols
         integer :: line = 0                      !! where it stands
     end type energy_statement_t
+
+    type :: start_t
+        !! `x_dot(0) = v_0`, as a line states it.
+        integer :: coordinate = 0                !! which begins
+        integer :: order = 0                     !! of its derivative
+        character(:), allocatable :: value       !! the right side, as typed
+        integer :: line = 0                      !! where it stands
+        logical :: used = .false.                !! a motion behind it is written out
+    end type start_t
 
     type :: samples_t
         !! Rows of `values` are states, those of the first parameters first.
@@ -100,6 +109,7 @@ module lagrangia_sample_names
         integer, allocatable :: kept_constants(:)  !! places of those that a line gave their value
         integer, allocatable :: kept_lines(:)      !! and of these lines
         type(energy_statement_t), allocatable :: energies(:)  !! with constants of no value
+        type(start_t), allocatable :: starts(:)    !! initial conditions of the lines before
         logical, allocatable :: two_signs(:)       !! of each of these: its opposite would do, too
         type(expression_t), allocatable :: motion(:)
         !! of each coordinate, as a line has it; empty: none
@@ -183,7 +193,7 @@ contains
         end if
         allocate (samples%constants(0), samples%declared(0), samples%motion(samples%ndof))
         allocate (samples%kept_constants(0), samples%two_signs(0), samples%kept_lines(0), &
-                  samples%energies(0))
+                  samples%energies(0), samples%starts(0))
         allocate (samples%exact_motion(samples%ndof), source=.false.)
         allocate (samples%place(samples%ndof))
         do i = 1, samples%ndof
