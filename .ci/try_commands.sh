@@ -519,9 +519,16 @@ check "grade: a line without an equals sign cannot be read, with its column" eva
 printf 'system: pendulun\ntheta_ddot = 3\n' >"$work/sheet"
 refuses 2 "sheet:1: unknown system 'pendulun'; did you mean 'pendulum'?" grade "$work/sheet"
 printf 'system: kepler\nset: h = 0.1\nset: m = 0\nset: k = 2\nL_z = const\n' > "$work/sheet"
-refuses 2 "sheet:3: set: m=0: &kepler: m = 0: greater than 0.0 is needed" grade "$work/sheet"
+run grade "$work/sheet"
+check "grade: a line 'set:' that cannot be is unreadable, the others are judged" eval '[ $status -eq 2 ] && grep -A 1 "^line 3  *unreadable" "$work/out" | grep -q " m = 0: greater than 0.0 is needed" && grep -q "^line 5  *right" "$work/out"'
+run grade "$work/sheet" --json
+check "grade --json: that line stands among the statements" json '[(s["line"], s["verdict"]) for s in d[0]["statements"]] == [(3, "unreadable"), (5, "right")]'
 printf 'system: charged_particle\ndT/dt = 0\nset: electric = 0 0 0\nset: m = 1 000\n' > "$work/sheet"
-refuses 2 "sheet:4: set: m=1 000: &charged_particle: m has 2 values; one is needed" grade "$work/sheet"
+run grade "$work/sheet"
+check "grade: what 'set:' fixes holds for the lines behind it" eval '[ $status -eq 2 ] && grep -q "^line 2  *wrong" "$work/out" && grep -A 1 "^line 4  *unreadable" "$work/out" | grep -q " m has 2 values; one is needed"'
+printf 'system: pendulun\ntheta_ddot = 3\n' > "$work/sheet"
+run grade "$work/sheet" --json
+check "grade --json: JSON also where no sheet is graded" json 'd == []'
 printf '%s\n' "&scene system = 'string' duration = 1.0 dt = 0.01 q = 0.1 /" "&lagrangian coordinates = 'x' parameters = 'm', 'L'" \
     "  T = 'm/2 x_dot^2' V = 'm L x^2/2' /" "&string m = 1.0 L = 2.0 /" >"$work/string.nml"
 printf '%s\n' "system: $work/string.nml" "m x_ddot + m L x = 0" >"$work/sheet"
@@ -745,7 +752,7 @@ run describe "$spring"
 check "formulas: the equations are written" grep -qF "m r^2 theta_ddot + 2 m r r_dot theta_dot + m g r sin(theta) = 0" "$work/out"
 run run "$spring" --set "lagrangian%parameters='m','k','l0','g','b'" --set spring_pendulum%b=1 --output "$work/o"
 check "formulas: a parameter for nothing is said" eval '[ $status -eq 0 ] && grep -qF "no formula contains b" "$work/err"'
-refuses 2 "&lagrangian: V: column 11: 'cos' needs brackets; write 'cos(theta)'" run "$spring" --set "lagrangian%V=m g r cos theta" --output "$work/none"
+refuses 2 "&lagrangian: V: column 9: 'cos' needs brackets; write 'cos(theta)'" run "$spring" --set "lagrangian%V=m g cos theta r" --output "$work/none"
 refuses 2 "the mass matrix d2L/dv dv is singular" run "$spring" --set "scene%q=0,1" --output "$work/none"
 refuses 2 "L has no theta_dot in it" modes "$spring" --set "lagrangian%T=m/2 r_dot^2"
 refuses 2 "give either L, or T and V" check "$spring" --set "lagrangian%L=r_dot^2"

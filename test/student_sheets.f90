@@ -5,12 +5,11 @@ module student_sheets
     use funit, only: assertFalse
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
-    use lagrangia_grading, only: grade, grade_t
+    use lagrangia_grading, only: grade_t
     use lagrangia_homework, only: homework_t, parse_homework
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, is_wrong
-    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_set_lines, only: grade_with_settings
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: word_t
     use tried_responses, only: group_t, response_t
     implicit none (type, external)
     private
@@ -53,15 +52,6 @@ contains
         call grade_sheet(system, marks, sheet, group)
     end subroutine grade_student_sheets
 
-    pure function base(name) result(group_name)
-        !! Of `data/scenes/kepler.nml` kepler.
-        character(*), intent(in) :: name
-        character(:), allocatable :: group_name
-
-        group_name = name(index(name, "/", back=.true.) + 1:)
-        if (index(group_name, ".nml") > 0) group_name = group_name(:index(group_name, ".nml") - 1)
-    end function base
-
     subroutine grade_sheet(name, marks, text, group)
         !! One of them.
         character(*), intent(in) :: name, marks, text
@@ -70,19 +60,13 @@ contains
         type(homework_t) :: homework
         type(grade_t) :: result
         type(error_t), allocatable :: error
-        type(word_t), allocatable :: settings(:)
         type(response_t), allocatable :: longer(:)
         integer :: i, n
 
         call parse_homework(text, "sheet", homework, error)
         call assertFalse(allocated(error), text)
         if (allocated(error)) return
-        allocate (settings(size(homework%settings)))
-        do i = 1, size(settings)
-            settings(i)%text = base(name)//"%"//homework%settings(i)%text
-        end do
-        call read_named_system(name, settings, system, error)
-        if (.not. allocated(error)) call grade(homework, system, result, error)
+        call grade_with_settings(homework, system, result, error)
         call assertFalse(allocated(error), text)
         if (allocated(error)) return
         n = size(group%of)

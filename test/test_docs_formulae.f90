@@ -37,6 +37,7 @@ module test_docs_formulae
         "x = l sin(theta), y = -l cos(theta)", "x' = x + s", "omega = theta_dot", &
         "theta_dot^2/2 = g/l cos(theta) + h", &
         "g = 4 pi^2 l/T^2", "set: magnetic_z = 2", "set: m1 = 1, m2 = 2", &
+        "set: B_z = 2", "set: alpha = pi/4", "set: l = 0.5 m", "E_x = 0", &
         "dT/dx = -k x", "E = k A^2/2", &
         "x = x_0 + v_0 t + a t^2/2", "theta_eq = pi", "V_eff = p_phi^2/(2 m r^2) + V", &
         "v^2 = v_0^2 - 2 g y", "i_roll = m r^2/2", "l1 = l2", "m1 = m2 = m", "I = M R^2/2", &

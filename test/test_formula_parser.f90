@@ -266,7 +266,10 @@ contains
         call is_refused("sin()", "column 5: the brackets are empty; write a formula into them")
         call is_refused("|x", "column 3: '|' of column 1 is not closed; write |x| or abs(x)")
         call is_refused("(|x)", "column 4: '|' of column 2 is not closed; write |x| or abs(x)")
-        call is_refused("sin theta", "column 5: 'sin' needs brackets; write 'sin(theta)'")
+        call is_refused("sin theta m", "column 5: 'sin' needs brackets; write 'sin(theta)'")
+        call is_refused("sin theta/m", "column 5: 'sin' needs brackets; write 'sin(theta)'")
+        call is_refused("sin theta^2", "column 5: 'sin' needs brackets; write 'sin(theta)'")
+        call is_refused("m sin theta (m)", "column 7: 'sin' needs brackets; write 'sin(theta)'")
         call is_refused("m cos 2 theta", "column 7: 'cos' needs brackets; write 'cos(2)'")
         call is_refused("sin", "column 4: 'sin' lacks its argument; write 'sin(x)'")
         call is_refused("sin + 1", "column 5: 'sin' lacks its argument; write 'sin(x)'")
@@ -342,9 +345,9 @@ contains
                         "0.5 for a "// &
                         "decimal")
         call is_refused("x"//achar(7)//"m", "column 2: U+0007 is a control character; delete it")
-        call is_refused(char(206)//char(184)//" + "//char(226)//char(136)//char(154)//"x", &
+        call is_refused(char(206)//char(184)//" + "//char(226)//char(136)//char(154)//"x m", &
                         "column 6: 'sqrt' needs brackets; write 'sqrt(x)'")
-        call is_refused("45"//char(194)//char(176), "column 3: U+00B0 is a degree; angles "// &
+        call is_refused("44"//char(194)//char(176), "column 3: U+00B0 is a degree; angles "// &
                         "are in "// &
                         "radians, write pi/4 for 45 degrees")
         call is_refused("q"//char(204)//char(135)//" = x", "column 1: unknown name 'q_dot'; "// &

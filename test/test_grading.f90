@@ -396,8 +396,9 @@ contains
         call refused("system: pendulum"//line_feed//"system: wedge", &
                      "sheet:2: 'system:' a second time")
         call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: column 8: what is ")
-        call refused("system: pendulum"//line_feed//"set: g", "sheet:2: 'set:' needs a parameter")
-        call unreadable("sin theta = 1", "write 'sin(theta)'")
+        call unreadable("set: g", "'set:' needs a parameter")
+        call unreadable("set: g*l = l = 2", "a line 'set:' has one '='")
+        call unreadable("sin 2 theta = 1", "write 'sin(2)'")
         call unreadable("theta_ddot + 3", "column 15: no '='; write 'left = right', or '#' in")
         call unreadable("theta_ddot == 3", "column 13: one side of '=' is empty")
         call unreadable("= 3", "column 1: one side of '=' is empty")

@@ -126,7 +126,7 @@ contains
         call refused("sum(i, 1, 4, x_i", "column 17: the bracket of a sum is not closed")
         call refused("sum(i, 2, 1, x_i", "the bracket of a sum is not closed")
         call refused("sum(i, 1, 4, x_i, k)", "column 17")
-        call refused("sum(i, 1, 4, sin x_i)", "column 18: 'sin' needs brackets")
+        call refused("sum(i, 1, 4, sin x_i k)", "column 18: 'sin' needs brackets")
         call refused("x_(i + 1)", "column 4: an index is a whole number")
         call refused("sum(i, 1, 1, x_(i*2))", "column 18: the bracket of an index is not "// &
                      "closed; write x_(i + 1)")

@@ -1,21 +1,20 @@
 module lagrangia_grade
     !! `lagrangia grade FILE...`: a student's statements, each right, or which term is wrong.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put, put_line
+    use lagrangia_console, only: put_line
     use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, status_not_held, status_usage
-    use lagrangia_grading, only: grade, grade_t
+    use lagrangia_grading, only: grade_t
     use lagrangia_homework, only: homework_t, read_homework
     use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair, &
                               json_string
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
                                    is_wrong
-    use lagrangia_parameter_choice, only: find_parameter
     use lagrangia_printed_table, only: left
-    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_set_lines, only: grade_with_settings
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: short_source, shortened, to_text, word_t
+    use lagrangia_text, only: short_source, shortened, to_text
     implicit none (type, external)
     private
     public :: grade_command
@@ -32,6 +31,7 @@ contains
         class(system_t), allocatable :: system
         type(homework_t) :: homework
         type(grade_t) :: result
+        character(:), allocatable :: json
         integer :: i, wrong, unreadable
 
         if (size(line%arguments) == 0) then
@@ -41,25 +41,22 @@ contains
         end if
         wrong = 0
         unreadable = 0
-        if (line%has("json")) call put("[")
+        json = ""
         do i = 1, size(line%arguments)
             call read_homework(line%arguments(i)%text, homework, error)
-            if (allocated(error)) return
-            call find_system(homework, system, error)
-            if (allocated(error)) return
-            call grade(homework, system, result, error)
-            if (allocated(error)) return
+            if (.not. allocated(error)) call grade_with_settings(homework, system, result, error)
+            if (allocated(error)) exit
             wrong = wrong + count(result%of%verdict == is_wrong)
             unreadable = unreadable + count(result%of%verdict == is_unreadable)
             if (line%has("json")) then
-                if (i > 1) call put(", ")
-                call put(sheet_json(homework, system, result))
+                json = json//json_element(sheet_json(homework, system, result))
             else if (.not. line%has("quiet")) then
                 if (i > 1) call put_line("")
                 call print_sheet(homework, system, result)
             end if
         end do
-        if (line%has("json")) call put_line("]")
+        if (line%has("json")) call put_line(json_array(json))
+        if (allocated(error)) return
         if (unreadable > 0) then
             call fail(error, "not readable: "//counted(unreadable, "statement"), &
                       status_usage)
@@ -67,73 +64,6 @@ contains
             call fail(error, "wrong: "//counted(wrong, "statement"), status_not_held)
         end if
     end subroutine grade_command
-
-    subroutine find_system(homework, system, error)
-        !! The system of a sheet, with what its lines `set:` fix.
-        type(homework_t), intent(in) :: homework
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
-        type(word_t), allocatable :: settings(:)
-        type(description_t) :: d
-        type(error_t), allocatable :: without
-        character(:), allocatable :: option
-        integer :: i, line, n
-
-        line = homework%system_line
-        n = size(homework%settings)
-        allocate (settings(n))
-        call read_named_system(homework%system, settings(:0), system, error)
-        if (.not. allocated(error) .and. n > 0) then
-            call system%describe(d)
-            do i = 1, n
-                line = homework%setting_lines(i)
-                call put_setting(homework%settings(i)%text, d, settings(i)%text, error)
-                if (allocated(error)) exit
-            end do
-            if (.not. allocated(error)) then
-                call read_named_system(homework%system, settings, system, error)
-            else
-                n = 0
-            end if
-            do i = n, 1, -1  ! the first line with which it fails
-                if (.not. allocated(error)) exit
-                line = homework%setting_lines(i)
-                call read_named_system(homework%system, settings(:i - 1), system, without)
-                if (.not. allocated(without)) exit
-                call move_alloc(without, error)
-            end do
-        end if
-        if (.not. allocated(error)) return
-        option = "--set "//trim(d%name)//"%"
-        if (index(error%message, option) == 1) error%message = "set: "// &
-                                                              error%message(len(option) + 1:)
-        n = index(error%message, "another --set")
-        if (n > 0) error%message = error%message(:n - 1)//"another line 'set:'"// &
-                                   error%message(n + 13:)
-        call error%add_context(trim(short_source(homework%source))//":"//to_text(line))
-    end subroutine find_system
-
-    subroutine put_setting(said, d, setting, error)
-        !! `magnetic_y=1` is `charged_particle%magnetic(2)=1` to the reader.
-        character(*), intent(in) :: said                        !! `name=value`
-        type(description_t), intent(in) :: d                    !! of the system
-        character(:), allocatable, intent(out) :: setting       !! as behind `--set`
-        type(error_t), allocatable, intent(out) :: error        !! an element that is none
-        character(:), allocatable :: name
-        integer :: element, equals, parameter
-
-        equals = index(said, "=")
-        setting = trim(d%name)//"%"//said
-        call find_parameter(d, said(:equals - 1), parameter, element)
-        if (parameter == 0 .or. element == 0) return
-        associate (p => d%parameters(parameter))
-            if (p%count == 1) return
-            name = trim(p%name)
-            setting = trim(d%name)//"%"//name//"("//to_text(element)//")"//said(equals:)
-            if (element > p%count) call fail(error, "set: "//name//" has "// &
-                to_text(p%count)//" values, "//name//"(1) to "//name//"("//to_text(p%count)//")")
-        end associate
-    end subroutine put_setting
 
     subroutine print_sheet(homework, system, result)
         !! For the eye.

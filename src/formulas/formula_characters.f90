@@ -23,7 +23,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! a character that no formula has
         character(8*len(text) + 1) :: buffer  ! a half has six characters for two bytes
         character(:), allocatable :: meant
-        integer :: code, column, filled, i, length
+        integer :: begun, code, column, filled, i, length
         logical :: alone, known, raised, signed
 
         allocate (columns(len(buffer)))
@@ -36,6 +36,14 @@ contains
         do while (i <= len(text))
             column = column + 1
             call decode(text, i, code, length)
+            begun = 0
+            if (code == int(z"00B0") .or. code == int(z"00BA")) begun = place_of_angle( &
+                buffer(:filled))
+            if (begun > 0) then  ! 45° is (45 pi/180)
+                buffer(begun:filled + 1) = "("//buffer(begun:filled)
+                columns(begun + 1:filled + 1) = columns(begun:filled)
+                filled = filled + 1
+            end if
             if (superscript(code) /= "") then
                 meant = superscript(code)
                 if (.not. raised) then
@@ -47,6 +55,10 @@ contains
             else
                 call spell(code, meant, known)
                 if (index(meant, "/") > 1 .and. follows(digits)) known = .false.  ! 2 1/2
+                if (begun > 0) then
+                    meant = " pi/180)"
+                    known = .true.
+                end if
                 if (.not. known) then
                     call fail(error, "column "//to_text(column)//": "//described(text, i)// &
                               advice(code))
@@ -82,6 +94,21 @@ contains
             yes = scan(buffer(max(filled, 1):filled), letters) > 0
         end function follows
     end subroutine plain_formula
+
+    pure function place_of_angle(text) result(place)
+        !! In front of the digits at the end of a text, where they are a multiple of 15 degrees,
+        !! which nobody rounds; 0: they are not.
+        character(*), intent(in) :: text  !! in plain letters
+        integer :: place
+        integer :: angle, before, status
+
+        place = 0
+        before = verify(text, digits, back=.true.)
+        if (before == len(text) .or. len(text) - before > 3) return
+        if (scan(text(max(1, before):before), lower//upper//"_.^") > 0) return
+        read (text(before + 1:), *, iostat=status) angle
+        if (status == 0 .and. mod(angle, 15) == 0) place = before + 1
+    end function place_of_angle
 
     pure function plain_letters(text) result(plain)
         !! In plain letters, `theta` for the Greek one; as it is where a character has no meaning.

@@ -9,7 +9,8 @@ submodule (lagrangia_formula_parser) lagrangia_formula_operators
 contains
 
     pure recursive module subroutine read_function(reader, symbols, which, node, error)
-        !! `sin(x)`, or `sin^2(x)` with a whole number; `acos` and `asin` are written out.
+        !! `sin(x)`, `sin theta`, or `sin^2(x)` with a whole number; `acos` and `asin` are written
+        !! out.
         type(reader_t), intent(inout) :: reader
         type(symbols_t), intent(in) :: symbols
         integer, intent(in) :: which
@@ -33,7 +34,11 @@ contains
             end if
             reader%at = reader%at + 1
         end if
-        if (.not. next_is(reader, "(")) then
+        if (is_alone(reader)) then
+            call read_factor(reader, symbols, argument, error)
+        else if (next_is(reader, "(")) then
+            call read_bracket(reader, symbols, argument, error)
+        else
             if (reader%tokens%token(reader%at)%kind == is_name .or. &
                 reader%tokens%token(reader%at)%kind == is_number) then
                 call refuse(reader, "'"//name//"' needs brackets; write "// &
@@ -43,7 +48,6 @@ contains
             end if
             return
         end if
-        call read_bracket(reader, symbols, argument, error)
         if (allocated(error)) return
         select case (which)
         case (arc_cosine_of)
@@ -58,6 +62,24 @@ contains
         call reader%expression%add_number(number_of(token%value), exponent)
         call reader%expression%add_operation(kind_power, argument, exponent, node)
     end subroutine read_function
+
+    pure function is_alone(reader) result(yes)
+        !! Is the argument of a function without brackets one name or number, behind which no factor
+        !! can follow but another function: `g sin theta`, `sin theta cos theta`, `sqrt 2`?
+        type(reader_t), intent(in) :: reader  !! behind the function's name
+        logical :: yes
+        character(:), allocatable :: behind
+
+        yes = .false.
+        associate (token => reader%tokens%token(reader%at))
+            if (token%kind /= is_name .and. token%kind /= is_number) return
+            if (is_function_name(reader%tokens%word(reader%at))) return
+            behind = reader%tokens%word(reader%at + 1)
+            yes = behind == "" .or. is_function_name(behind)
+            if (.not. yes) yes = scan(behind, "+-=)|,*") == 1 .and. behind /= "**"
+            if (token%kind == is_number) yes = yes .or. behind == "/"
+        end associate
+    end function is_alone
 
     pure recursive module subroutine read_indexed_sum(reader, symbols, node, error)
         !! `sum(i, 1, 4, m/2 x_i_dot^2)`: the formula is read once for each number.

@@ -10,8 +10,8 @@ module lagrangia_formula_parser
     use lagrangia_expression, only: expression_t, f_abs, function_names, is_function_name, &
                                     kind_difference, kind_function, kind_negation, kind_power, &
                                     kind_product, kind_quotient, kind_sum
-    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, next_is, reader_t, &
-                                        refuse, refuse_missing, refuse_unexpected, &
+    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, is_unit, next_is, &
+                                        reader_t, refuse, refuse_missing, refuse_unexpected, &
                                         refuse_unknown, skip_sign, start, typed_number
     use lagrangia_formula_tokens, only: is_end, is_name, is_number, is_sign, token_t
     use lagrangia_indexed_names, only: begins_sum, is_of_chain, put_indices, refuse_index
@@ -194,6 +194,8 @@ contains
             else if (next_is(reader, "^")) then
                 call refuse(reader, "a second '^' has two meanings; write x^(2^3) or (x^2)^3", &
                             error)
+            else if (reader%tokens%token(reader%at)%kind == is_number .and. is_unit(reader)) then
+                call refuse(reader, "numbers have no units here; write the number alone", error)
             else if (reader%tokens%token(reader%at)%kind == is_number) then
                 call refuse(reader, "the number "//quoted(reader%tokens%word(reader%at))// &
                             " follows a factor; write it before, or with * or ^", error)

@@ -13,7 +13,7 @@ module lagrangia_formula_reader
     private
     public :: reader_t
     public :: largest, most_indices
-    public :: begins_factor, check_size, go_deeper, is_time_in_brackets, next_is, refuse, &
+    public :: begins_factor, check_size, go_deeper, is_time_in_brackets, is_unit, next_is, refuse, &
               refuse_missing, refuse_unexpected, refuse_unknown, skip_sign, start, typed_number
 
     integer, parameter :: deepest = 200          !! brackets within brackets
@@ -226,6 +226,11 @@ contains
         character(:), allocatable :: factors, nearest
         logical :: applied
 
+        if (is_unit(reader)) then
+            call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
+                        "the number alone, or the formula in letters", error)
+            return
+        end if
         applied = reader%tokens%word(min(reader%at + 1, size(reader%tokens%token))) == "("
         call symbols%all_names(names)
         if (applied) then
@@ -250,9 +255,6 @@ contains
         else if (nearest /= "") then
             call refuse(reader, "unknown name "//quoted(name)//"; did you mean "// &
                         quoted(nearest)//"?", error)
-        else if (follows_number(reader) .and. any(units == name)) then
-            call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
-                        "the formula in letters", error)
         else if (name == "sum") then
             call refuse(reader, "a sum is written sum(i, 1, 4, m/2 x_i_dot^2)", error)
         else if (size(names) == 1) then
@@ -264,15 +266,36 @@ contains
         end if
     end subroutine refuse_unknown
 
-    pure function follows_number(reader) result(yes)
-        !! Does a number stand before the next token?
-        type(reader_t), intent(in) :: reader
+    pure function is_unit(reader) result(yes)
+        !! Does the next token stand among units behind a number, up to the end: `1.96 m/s^2`?
+        type(reader_t), intent(in) :: reader   !! at a name, or at the 1 of `1/s`
         logical :: yes
+        integer :: at
 
-        yes = reader%at > 1
-        if (yes) yes = reader%tokens%token(reader%at - 1)%kind == is_number
-        if (yes .and. reader%at > 2) yes = reader%tokens%word(reader%at - 2) /= "^"
-    end function follows_number
+        yes = .false.
+        do at = reader%at, size(reader%tokens%token)
+            if (reader%tokens%token(at)%kind == is_end .or. &
+                any(reader%tokens%word(at) == ["=", ")"])) exit
+            if (.not. is_of_units(at)) return
+        end do
+        if (.not. any([(any(units == reader%tokens%word(at)), &
+                        at=reader%at, min(reader%at + 2, size(reader%tokens%token)))])) return
+        do at = reader%at - 1, 1, -1
+            if (.not. is_of_units(at)) return
+            yes = reader%tokens%token(at)%kind == is_number
+            if (at > 1 .and. yes) yes = .not. any(reader%tokens%word(at - 1) == ["^", "-"]) .or. &
+                                        at == 2
+            if (yes) return
+        end do
+    contains
+        pure logical function is_of_units(place)
+            integer, intent(in) :: place
+
+            is_of_units = reader%tokens%token(place)%kind == is_number .or. &
+                          any(reader%tokens%word(place) == ["/", "*", "^", "-"]) .or. &
+                          any(units == reader%tokens%word(place))
+        end function is_of_units
+    end function is_unit
 
     pure function essential(names) result(few)
         !! Of many names those that are no derivatives of others.

@@ -9,10 +9,10 @@ module lagrangia_homework
     !! l1 theta1_ddot + ... = 0
     !! ```
     !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
-    !! a parameter (`set: g = 0`), `constant: h, C` makes names of constants of integration, and
-    !! behind `small:` is a statement about small oscillations. A line of words is a remark. A
-    !! line that ends in `\` goes on in the next one. Lines end in LF, CR or both; a byte order mark
-    !! is skipped, and other signs for `=` and `:` are read as these.
+    !! a parameter for the lines behind it (`set: g = 0`), `constant: h, C` makes names of constants
+    !! of integration, and behind `small:` is a statement about small oscillations. A line of words
+    !! is a remark. A line that ends in `\` goes on in the next one. Lines end in LF, CR or both; a
+    !! byte order mark is skipped, and other signs for `=` and `:` are read as these.
     use lagrangia_characters, only: decode, plainly
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at
@@ -23,7 +23,7 @@ module lagrangia_homework
     implicit none (type, external)
     private
     public :: homework_t, statement_t
-    public :: parse_homework, read_homework
+    public :: parse_homework, read_homework, refuse_setting
 
     integer, parameter :: statement_length = 10000  !! bytes of one statement at most
     integer, parameter :: most_statements = 1000    !! of one file
@@ -34,6 +34,7 @@ module lagrangia_homework
         integer :: line = 0                !! number in the file, from 1
         logical :: small = .false.         !! to first order: behind `small:`
         logical :: used = .false.          !! another one has the name that it defines
+        character(:), allocatable :: refusal  !! why this line `set:` cannot be read; else not there
     end type statement_t
 
     type :: homework_t
@@ -246,7 +247,8 @@ contains
                     "'lagrangia list systems' shows them")
             case ("set")
                 if (index(text, "=") == 0) then
-                    call refuse("'set:' needs a parameter and its value, say 'set: g = 9.81'")
+                    call refuse_line("'set:' needs a parameter and its value, "// &
+                                     "say 'set: g = 9.81'")
                 else
                     call add_settings(plainly(text(colon + 1:)))
                 end if
@@ -345,41 +347,49 @@ contains
         end subroutine add_settings
 
         subroutine add_setting(setting)
-            !! Blanks stay between several values only, `electric = 0 0 1`.
+            !! Blanks stay between several values only, `electric = 0 0 1`; `m1 = m2 = 1` is two.
             character(*), intent(in) :: setting
-            integer :: equals
+            character(*), parameter :: of_names = letters//"_0123456789() "
+            integer :: equals, first, last
 
-            equals = index(setting, "=")
-            if (index(setting(equals + 1:), "=") > 0) then
-                call refuse("a line 'set:' has one '=' for each parameter, 'set: m1 = 1, m2 = 1'")
+            last = index(setting, "=", back=.true.)
+            if (verify(setting(:max(last - 1, 0)), of_names//"=") > 0 .and. &
+                index(setting, "=") < last) then
+                call refuse_line("a line 'set:' has one '=' for each parameter, "// &
+                                 "'set: m1 = 1, m2 = 1'")
                 return
             end if
-            call append_word(homework%settings, trim(adjustl(setting(:equals - 1)))//"="// &
-                             trim(adjustl(setting(equals + 1:))))
-            homework%setting_lines = [homework%setting_lines, number]
+            first = 1
+            do
+                equals = first + index(setting(first:), "=") - 1
+                call append_word(homework%settings, trim(adjustl(setting(first:equals - 1)))// &
+                                 "="//trim(adjustl(setting(last + 1:))))
+                homework%setting_lines = [homework%setting_lines, number]
+                if (equals == last) return
+                first = equals + 1
+            end do
         end subroutine add_setting
 
         subroutine add_statement(said)
             character(*), intent(in) :: said
-            type(statement_t), allocatable :: longer(:)
-            integer :: i, n
 
-            n = size(homework%statements)
-            if (n == most_statements) then
+            if (size(homework%statements) == most_statements) then
                 call refuse("more than "//to_text(most_statements)//" statements")
                 return
             end if
-            allocate (longer(n + 1))
-            do i = 1, n
-                call move_alloc(homework%statements(i)%text, longer(i)%text)
-                longer(i)%line = homework%statements(i)%line
-                longer(i)%small = homework%statements(i)%small
-            end do
-            longer(n + 1)%text = said
-            longer(n + 1)%line = number
-            longer(n + 1)%small = index(said, "small") == 1 .and. index(said, ":") > 0
-            call move_alloc(longer, homework%statements)
+            call insert_statement(homework, said, number)
+            homework%statements(size(homework%statements))%small = &
+                index(said, "small") == 1 .and. index(said, ":") > 0
         end subroutine add_statement
+
+        subroutine refuse_line(why)
+            !! A line `set:` that cannot be read; the others are graded without it.
+            character(*), intent(in) :: why
+
+            call add_statement(text)
+            if (allocated(error)) return
+            homework%statements(size(homework%statements))%refusal = why
+        end subroutine refuse_line
 
         subroutine refuse(what)
             character(*), intent(in) :: what
@@ -387,4 +397,48 @@ contains
             call fail(error, trim(short_source(homework%source))//":"//to_text(number)//": "//what)
         end subroutine refuse
     end subroutine take
+
+    subroutine insert_statement(homework, said, number)
+        !! One more, in front of those of later lines.
+        type(homework_t), intent(inout) :: homework
+        character(*), intent(in) :: said
+        integer, intent(in) :: number   !! its line
+        type(statement_t), allocatable :: longer(:)
+        integer :: i, n, place
+
+        n = size(homework%statements)
+        place = 1 + count(homework%statements%line <= number)
+        allocate (longer(n + 1))
+        do i = 1, n
+            longer(merge(i, i + 1, i < place)) = homework%statements(i)
+        end do
+        longer(place)%text = said
+        longer(place)%line = number
+        call move_alloc(longer, homework%statements)
+    end subroutine insert_statement
+
+    subroutine refuse_setting(homework, which, why)
+        !! What a line `set:` says cannot be: it becomes a statement that nobody can read.
+        type(homework_t), intent(inout) :: homework  !! loses the setting
+        integer, intent(in) :: which                 !! its place among all settings
+        character(*), intent(in) :: why              !! the reason
+        type(word_t), allocatable :: settings(:)
+        integer :: equals, i, line, place
+
+        line = homework%setting_lines(which)
+        associate (text => homework%settings(which)%text)
+            equals = index(text, "=")
+            call insert_statement(homework, "set: "//text(:equals - 1)//" = "//text(equals + 1:), &
+                                  line)
+        end associate
+        place = count(homework%statements%line <= line)
+        homework%statements(place)%refusal = why
+        allocate (settings(0))
+        do i = 1, size(homework%settings)
+            if (i /= which) call append_word(settings, homework%settings(i)%text)
+        end do
+        call move_alloc(settings, homework%settings)
+        homework%setting_lines = [homework%setting_lines(:which - 1), &
+                                  homework%setting_lines(which + 1:)]
+    end subroutine refuse_setting
 end module lagrangia_homework

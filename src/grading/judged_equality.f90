@@ -21,6 +21,7 @@ module lagrangia_judged_equality
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
     use lagrangia_term_search, only: library_t, part_text
+    use lagrangia_text, only: quoted
     use lagrangia_unknown_names, only: hidden
     use lagrangia_verdict, only: but_for_constant, is_right, is_unreadable, is_wrong, &
                                  judgement_t, put_example
@@ -106,11 +107,13 @@ contains
               any(right%nodes(:right%count)%kind == kind_symbol)
     end function is_rate
 
-    pure subroutine put_unreadable(error, judgement)
+    pure subroutine put_unreadable(error, samples, judgement)
         !! What the reader says; a short name that nobody knows may be a constant.
         type(error_t), intent(in) :: error              !! column and remedy
+        type(samples_t), intent(in) :: samples          !! know the names
         type(judgement_t), intent(inout) :: judgement   !! gets it
         character(*), parameter :: unknown = "unknown name '"
+        character(:), allocatable :: name
         integer :: first, length
 
         judgement%verdict = is_unreadable
@@ -118,7 +121,14 @@ contains
         call drop_same_name(judgement%remark)
         first = index(error%message, unknown) + len(unknown)
         length = index(error%message(first:), "'") - 1
-        if (first == len(unknown) .or. length > 3) return
+        if (first == len(unknown)) return
+        name = error%message(first:first + length - 1)
+        if (index(name, "_0", back=.true.) == len(name) - 1) then
+            name = name(:len(name) - 2)//"_eq"  ! of theta_0
+            if (samples%symbols%find(name) > 0) judgement%remark = judgement%remark// &
+                "; the place of an equilibrium is "//quoted(name)
+        end if
+        if (length > 3) return
         judgement%remark = judgement%remark//"; if it is a constant, write a line 'constant: "// &
             error%message(first:first + length - 1)//"'"
     end subroutine put_unreadable

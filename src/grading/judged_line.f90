@@ -42,10 +42,10 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
-        character(:), allocatable :: name, side, side_and, text
+        character(:), allocatable :: name, said, side, side_and, text
         integer :: begun, first, next, last
         logical, allocatable :: nearly(:)
-        logical :: chained, constancy, is_one, small, squared
+        logical :: chained, constancy, is_one, of_value, small, squared
 
         chained = .false.
         small = statement%small
@@ -91,12 +91,13 @@ contains
         chained = is_slope(side) .or. is_usual(side, samples) .or. begun > 1
         do
             first = next + 1
-            small = small .or. nearly(next)
             last = index(text(first:), "=")
             next = merge(len(text) + 1, first + last - 1, last == 0)
             ! blanks in front keep the columns of what went before
             call parse_formula(repeat(" ", characters(text(:first - 1)))// &
                                as_in(text, first, next - 1), samples%symbols, right, error)
+            small = small .or. (nearly(first - 1) .and. &
+                                .not. is_value(as_in(text, first, next - 1)))
             if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
             call read_constancy(plain_letters(as_in(text, first, next - 1)), samples, side_and, &
                                 constancy)
@@ -115,8 +116,13 @@ contains
             if (statement%small) then
                 call judge_small(left, right, chained, samples, library, explain, judgement)
             else
-                call judge_forms(left, right, text(begun:next - 1), chained, small, samples, &
-                                 library, explain, judgement)
+                said = text(begun:next - 1)
+                of_value = nearly(first - 1) .and. .not. small
+                if (of_value .and. index(text(first:), ".") == 0) said = trim(said)//"."  ! 24.
+                call judge_forms(left, right, said, chained, small, samples, library, explain, &
+                                 judgement)
+                if (of_value .and. judgement%verdict == is_wrong) call ask_for_digits( &
+                    text(first:next - 1), judgement)
                 if (constancy .and. explain .and. judgement%verdict == is_wrong) then
                     call explain_change(text(begun:first - 2), samples, judgement%explanation, &
                                         judgement%remark)
@@ -194,7 +200,7 @@ contains
                 if (allocated(there)) exit
             end do
             if (allocated(there)) call move_alloc(there, error)
-            call put_unreadable(error, judgement)
+            call put_unreadable(error, samples, judgement)
             call solve_here()
         end subroutine solve_or_refuse
 
@@ -247,6 +253,27 @@ contains
 
         yes = any(samples%usual%name == adjustl(side))
     end function is_usual
+
+    pure subroutine ask_for_digits(side, judgement)
+        !! One digit is not enough for a comparison.
+        character(*), intent(in) :: side                !! a number, as typed
+        type(judgement_t), intent(inout) :: judgement   !! wrong
+        integer :: i
+
+        if (count([(scan(side(i:i), "0123456789") == 1, i=1, len(side))]) > 1) return
+        judgement%verdict = is_unreadable
+        judgement%example = ""
+        judgement%remark = "a number that holds nearly has two digits or more"
+    end subroutine ask_for_digits
+
+    pure function is_value(side) result(yes)
+        !! A number but 0: nearly that is to the digits given, and not of small motions.
+        character(*), intent(in) :: side  !! as typed
+        logical :: yes
+        character(*), parameter :: digits = "123456789"
+
+        yes = scan(side, digits) > 0 .and. verify(side, digits//"0 .+-") == 0
+    end function is_value
 
     pure function as_in(text, first, last) result(side)
         !! One side of a statement; in LaTeX, `mgl` is a product on both of them.

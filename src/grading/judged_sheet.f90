@@ -80,6 +80,12 @@ contains
             integer, intent(in) :: at
             type(symbols_t) :: before
 
+            if (allocated(sheet%statements(at)%refusal)) then
+                result(at)%verdict = is_unreadable
+                result(at)%remark = sheet%statements(at)%refusal
+                result(at)%example = ""
+                return
+            end if
             before = samples%symbols
             call judge_corrected(at)
             if (result(at)%verdict == is_right) return
@@ -212,10 +218,37 @@ contains
                 if (left(len(left):) /= "'") cycle
                 place = samples%symbols%find(samples%symbols%spelling(left(:len(left) - 1)))
                 if (place < 2 .or. place > 1 + samples%ndof) cycle
-                yes = yes .and. (scan(text(equals:), "'") > 0 .or. index(text(equals:), "_d") > 0)
+                yes = yes .and. .not. is_shifted(text(equals + 1:), left(:len(left) - 1))
             end associate
         end do
     end function has_primes
+
+    pure function is_shifted(side, coordinate) result(yes)
+        !! Is the coordinate itself one of its summands, as in `x + s`? A velocity is no place.
+        character(*), intent(in) :: side        !! the right one, in plain letters
+        character(*), intent(in) :: coordinate  !! as typed
+        logical :: yes
+        character(:), allocatable :: rest, summand
+        integer :: at, depth
+
+        yes = .false.
+        rest = "+"//side//"+"
+        summand = ""
+        depth = 0
+        do at = 1, len(rest) - 1
+            select case (rest(at:at))
+            case ("("); depth = depth + 1
+            case (")"); depth = depth - 1
+            case ("+", "-", "=")
+                if (depth /= 0) cycle
+                summand = adjustl(rest(at + 1:))
+                if (index(summand, coordinate) /= 1) cycle
+                yes = yes .or. scan(adjustl(summand(len(coordinate) + 1:)), "+-=") == 1
+            case default
+                cycle
+            end select
+        end do
+    end function is_shifted
 
     pure function has_double_prime(statement) result(yes)
         !! `theta''`, so that `theta'` is the velocity, and no coordinate of another frame?

@@ -10,8 +10,9 @@ module lagrangia_own_names
     use lagrangia_rounded_numbers, only: put_exact_number
     use lagrangia_sample_names, only: role_coordinate, role_parameter, samples_t
     use lagrangia_statement_forms, only: define_by_period, define_rates, find_frequency, &
-                                         means_frequency
+                                         has_velocities, means_frequency
     use lagrangia_term_search, only: library_t
+    use lagrangia_usual_meanings, only: energy_name
     use lagrangia_usual_names, only: find_usual
     use lagrangia_verdict, only: as_new_name, is_definition, is_right, is_wrong, judgement_t
     implicit none (type, external)
@@ -42,6 +43,7 @@ contains
             call define_by_period(meaning, samples)
             if (squared) meaning = apply(f_sqrt, meaning)
             call find_frequency(name, meaning, samples, truth)
+            if (truth%count == 0) call find_energy(name, meaning, samples, truth)
             if (truth%count > 0) then
                 attempt%remark = ""
                 attempt%example = ""
@@ -54,12 +56,12 @@ contains
             call samples%symbols%define(name, meaning, error)
         end if
         if (allocated(error)) then
-            call put_unreadable(error, judgement)
+            call put_unreadable(error, samples, judgement)
             return
         end if
         call define_rates(name, meaning, samples)
         if (name == "V_eff" .or. name == "U_eff") call define_slopes(name, meaning, samples)
-        call compare_usual(name, meaning, samples, judgement)
+        call compare_usual(name, meaning, text, samples, judgement)
         if (name == "T" .or. name == "V") judgement%remark = as_new_name// &
             "of this system only L is known"
         if (judgement%verdict == is_right .or. truth%count == 0) return
@@ -71,16 +73,33 @@ contains
             judgement%of_oscillation = .true.
         end if
         if (attempt%verdict /= is_wrong) return
-        if (means_frequency(name, samples) .and. (.not. used .or. meaning%count == 1)) then
+        if (name == energy_name) then
+            judgement = attempt
+        else if (name == "period" .or. means_frequency(name, samples) .and. &
+                 (.not. used .or. meaning%count == 1)) then
             judgement = attempt
             if (attempt%is_unexplained) judgement%remark = "no small oscillation has this "// &
-                "frequency; see 'lagrangia modes'"
+                trim(merge("period   ", "frequency", name == "period"))//"; see 'lagrangia modes'"
         else if (samples%decay == 0 .and. scan(name, "0") == 0 .and. scan(name, "wt") /= 1) then
             judgement%of_none = .true.
             judgement%remark = as_new_name//"no small oscillation has this "// &
                 trim(merge("period   ", "frequency", name(1:1) == "T"))
         end if
     end subroutine define
+
+    pure subroutine find_energy(name, meaning, samples, truth)
+        !! h, where it is the energy function, and moves: a height may have that name, too.
+        character(*), intent(in) :: name              !! a new one
+        type(expression_t), intent(in) :: meaning     !! of it
+        type(samples_t), intent(in) :: samples        !! know the usual names
+        type(expression_t), intent(out) :: truth      !! empty: it may be anything
+        integer :: i
+
+        if (name /= energy_name .or. .not. has_velocities(meaning, samples)) return
+        do i = 1, size(samples%usual)
+            if (samples%usual(i)%name == energy_name) truth = samples%usual(i)%meaning
+        end do
+    end subroutine find_energy
 
     pure subroutine define_slopes(name, meaning, samples)
         !! `dV_eff/dr`, in which the momenta are constants.
@@ -102,16 +121,17 @@ contains
         end do
     end subroutine define_slopes
 
-    subroutine compare_usual(name, meaning, samples, judgement)
+    subroutine compare_usual(name, meaning, text, samples, judgement)
         !! A definition of H, v or S is right if it is what is mostly called that.
         character(*), intent(in) :: name
         type(expression_t), intent(in) :: meaning
+        character(*), intent(in) :: text
         type(samples_t), intent(in) :: samples
         type(judgement_t), intent(inout) :: judgement
         character(:), allocatable :: label
         logical :: agrees, known
 
-        call find_usual(name, meaning, samples, known, agrees, label)
+        call find_usual(name, meaning, text, samples, known, agrees, label)
         if (.not. known) return
         if (agrees) judgement%verdict = is_right
         judgement%contradicts = .not. agrees

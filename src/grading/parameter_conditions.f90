@@ -1,10 +1,10 @@
 module lagrangia_parameter_conditions
-    !! Lines that set a parameter of the system by a formula of others: `i_roll = m r^2/2`,
-    !! `l1 = l2`. The lines behind are about systems for which that is true.
+    !! Lines that set a parameter of the system by a formula of others, or to 0: `i_roll = m r^2/2`,
+    !! `l1 = l2`, `E_x = 0`. The lines behind are about systems for which that is true.
     use lagrangia_description, only: default_values, description_t, value_names
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol, operator(-), &
-                                    symbol
+    use lagrangia_expression, only: expression_t, kind_difference, kind_number, kind_symbol, &
+                                    operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
@@ -35,16 +35,20 @@ contains
         type(condition_t) :: one
         integer :: k
 
-        if (residual%count < 3) return
         do k = 1, residual%count
             if (residual%nodes(k)%kind /= kind_symbol) cycle
             if (residual%nodes(k)%which > size(samples%role)) return  ! a constant of one line
         end do
-        associate (last => residual%nodes(residual%count))
-            if (last%kind /= kind_difference .or. last%left /= 1) return
-            if (residual%nodes(1)%kind /= kind_symbol) return
-            one%formula = without_letters(residual%pruned(last%right), samples)
-        end associate
+        if (residual%count == 0) return
+        if (residual%nodes(1)%kind /= kind_symbol) return
+        if (residual%count == 1) then  ! E_x = 0
+            one%formula = whole(0)
+        else
+            associate (last => residual%nodes(residual%count))
+                if (last%kind /= kind_difference .or. last%left /= 1) return
+                one%formula = without_letters(residual%pruned(last%right), samples)
+            end associate
+        end if
         one%symbol = residual%nodes(1)%which
         do k = 1, size(samples%compiled)
             associate (letter => samples%compiled(k))
@@ -62,7 +66,8 @@ contains
             if (.not. is_parameter(one%symbol)) return
             if (.not. varies(one%symbol)) return
         end if
-        if (.not. any([(one%formula%depends_on(k), k=1, size(samples%role))])) return
+        if (.not. any([(one%formula%depends_on(k), k=1, size(samples%role))]) .and. &
+            .not. is_zero(one%formula)) return
         do k = 1, size(samples%role)
             if (one%formula%depends_on(k) .and. .not. is_parameter(k)) return
         end do
@@ -84,6 +89,16 @@ contains
             varies = minval(samples%values(:, which)) < maxval(samples%values(:, which))
         end function varies
     end subroutine find_condition
+
+    pure function is_zero(formula) result(yes)
+        !! The number 0: others stand behind `set:`.
+        type(expression_t), intent(in) :: formula
+        logical :: yes
+
+        yes = formula%count == 1
+        if (yes) yes = formula%nodes(1)%kind == kind_number .and. &
+                       abs(formula%nodes(1)%number%value) <= 0.0_dp
+    end function is_zero
 
     function is_own_formula(condition, d, samples) result(yes)
         !! Is it what the system has for this parameter where nobody gives it a value?

@@ -79,8 +79,8 @@ contains
     end subroutine drop_root_of_name
 
     pure subroutine find_frequency(name, meaning, samples, truth)
-        !! What `omega_1`, `T_1`, `f` and `nu` must be if they are what they are called: only where
-        !! they stand for a formula of constants.
+        !! What `omega_1`, `T_1`, `period`, `f` and `nu` must be if they are what they are
+        !! called: only where they stand for a formula of constants.
         character(*), intent(in) :: name              !! a new one
         type(expression_t), intent(in) :: meaning     !! of it
         type(samples_t), intent(in) :: samples        !! know the names
@@ -99,7 +99,7 @@ contains
         stem = without_number(name)
         if (stem == trim(samples%symbols%names(samples%frequency)) .or. stem == "w") then
             truth = symbol(samples%frequency)
-        else if (stem == "T" .or. stem == "tau") then
+        else if (stem == "T" .or. stem == "tau" .or. name == "period") then
             truth = period(samples)
         else if (stem == "f" .or. stem == "nu") then
             truth = whole(1)/period(samples)

@@ -17,8 +17,10 @@ module lagrangia_usual_meanings
     implicit none (type, external)
     private
     public :: collect_meanings, multiplier_readings
+    public :: energy_name
 
     character(*), parameter :: digits = "0123456789"
+    character, parameter :: energy_name = "h"  !! of v dL/dv - L, where that is not T + V
     integer, parameter :: most_names = 400, most_coordinates = 12, most_cyclic = 3
 
 contains
@@ -33,6 +35,10 @@ contains
         allocate (all(most_names))
         n = 0
         call collect_energies(samples, all, n)
+        if (allocated(d%notes)) then
+            if (any(index(d%notes, energy_name//" = ") > 0)) call put( &
+                all, n, samples, energy_name, "v dL/dv - L", symbol(samples%symbols%find("E")))
+        end if
         if (samples%ndof <= most_coordinates) then
             call collect_momenta(samples, all, n)
             call collect_points(d, samples, all, n)
@@ -187,6 +193,9 @@ contains
             call parse_formula(trim(d%points(i)%mass_formula), samples%symbols, mass, error)
             if (allocated(error)) return
             call put(all, n, samples, "T"//number, "the kinetic energy of "//point, &
+                     mass/whole(2)*speed2, only_compared=.true.)
+            if (number /= to_text(i)) return
+            call put(all, n, samples, "T_"//trim(point), "the kinetic energy of "//point, &
                      mass/whole(2)*speed2, only_compared=.true.)
         end subroutine add_for
 

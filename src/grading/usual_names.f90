@@ -8,6 +8,7 @@ module lagrangia_usual_names
     use lagrangia_expression, only: expression_t, operator(**), operator(+), operator(-)
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_homework, only: homework_t
+    use lagrangia_rounded_numbers, only: holds_to_digits
     use lagrangia_sample_names, only: role_parameter, samples_t, usual_t
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
@@ -136,10 +137,11 @@ contains
         is_effective = any(usual%name(:7) == ["dV_eff_", "dU_eff_"])
     end function is_effective
 
-    subroutine find_usual(name, meaning, samples, known, agrees, label)
+    subroutine find_usual(name, meaning, text, samples, known, agrees, label)
         !! Whether a definition is what its name mostly stands for.
         character(*), intent(in) :: name                    !! that it defines
         type(expression_t), intent(in) :: meaning           !! as the sheet has it
+        character(*), intent(in) :: text                    !! both sides, as typed
         type(samples_t), intent(in) :: samples              !! with the usual names
         logical, intent(out) :: known                       !! there is something to compare with
         logical, intent(out) :: agrees                      !! it is that
@@ -160,6 +162,8 @@ contains
                         agrees = is_same(usual%meaning**2 - meaning**2, .false., samples)
                     end if
                 end if
+                if (usual%is_force .and. .not. agrees) agrees = holds_to_digits( &
+                    usual%meaning, meaning, text, samples)
                 if (.not. agrees .and. .not. usual%is_force .and. &
                     (moves(usual%meaning, samples) .neqv. moves(meaning, samples))) cycle
                 known = .true.
@@ -201,10 +205,15 @@ contains
         type(samples_t), intent(in) :: samples
         character(name_length), allocatable, intent(out) :: said(:), given(:)
         character(:), allocatable :: name, plain, rest
-        logical :: is_constant, squared
+        logical :: is_constant, of_roots, squared
         integer :: first, i, last
 
         allocate (said(0), given(0))
+        of_roots = .false.  ! lambda^2 + k/m = 0 is about no force
+        do i = 1, size(homework%statements)
+            of_roots = of_roots .or. index(plain_letters(homework%statements(i)%text), &
+                                           "lambda^") > 0
+        end do
         do i = 1, size(homework%statements)
             associate (text => homework%statements(i)%text)
                 plain = plain_letters(text)
@@ -214,7 +223,8 @@ contains
                     if (last == 0) exit
                     first = first + last - 1
                     last = first + verify(plain(first:)//" ", letters//digits//"_") - 2
-                    call add(plain(first:last))
+                    if (.not. (is_newton(plain, first, last) .or. of_roots .and. &
+                               plain(first:last) == "lambda")) call add(plain(first:last))
                     first = last + 1
                 end do
                 call read_new_name(plain(:max(0, index(plain, "=") - 1)), samples, name, squared)
@@ -247,6 +257,20 @@ contains
             said = [character(name_length) :: said, one]
         end subroutine add_one
     end subroutine collect_names
+
+    pure function is_newton(text, first, last) result(yes)
+        !! `23.5 N`: a unit behind a number of several digits, and no normal force.
+        character(*), intent(in) :: text      !! a statement in plain letters
+        integer, intent(in) :: first, last    !! of a name in it
+        logical :: yes
+        integer :: before, begun
+
+        yes = text(first:last) == "N"
+        if (.not. yes) return
+        before = len_trim(text(:first - 1))
+        begun = verify(text(:before), digits//".", back=.true.) + 1
+        yes = before - begun >= 1 .and. scan(text(max(1, begun - 1):begun - 1), letters//"_^") == 0
+    end function is_newton
 
     pure function bare_name(name) result(bare)
         !! Without the `_` before a number behind: `T1` of `T_1`.
