@@ -57,7 +57,11 @@ contains
                 end do
                 call keep_consequences(attempt, i)
             end if
-            result = attempt
+            call move_alloc(attempt%of, result%of)
+            call move_alloc(attempt%kept, result%kept)
+            call move_alloc(attempt%meaning, result%meaning)
+            call move_alloc(attempt%determined, result%determined)
+            result%equations = attempt%equations
         end do
     end subroutine grade_with_settings
 

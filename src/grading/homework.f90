@@ -27,6 +27,7 @@ module lagrangia_homework
 
     integer, parameter :: statement_length = 10000  !! bytes of one statement at most
     integer, parameter :: most_statements = 1000    !! of one file
+    integer, parameter :: refusal_length = 400      !! of its reason at most
 
     type :: statement_t
         !! One line of the file, as it was typed.
@@ -34,7 +35,7 @@ module lagrangia_homework
         integer :: line = 0                !! number in the file, from 1
         logical :: small = .false.         !! to first order: behind `small:`
         logical :: used = .false.          !! another one has the name that it defines
-        character(:), allocatable :: refusal  !! why this line `set:` cannot be read; else not there
+        character(refusal_length) :: refusal = ""  !! why a line `set:` cannot be read
     end type statement_t
 
     type :: homework_t
@@ -404,13 +405,17 @@ contains
         character(*), intent(in) :: said
         integer, intent(in) :: number   !! its line
         type(statement_t), allocatable :: longer(:)
-        integer :: i, n, place
+        integer :: i, k, n, place
 
         n = size(homework%statements)
         place = 1 + count(homework%statements%line <= number)
         allocate (longer(n + 1))
         do i = 1, n
-            longer(merge(i, i + 1, i < place)) = homework%statements(i)
+            k = merge(i, i + 1, i < place)
+            call move_alloc(homework%statements(i)%text, longer(k)%text)
+            longer(k)%refusal = homework%statements(i)%refusal
+            longer(k)%line = homework%statements(i)%line
+            longer(k)%small = homework%statements(i)%small
         end do
         longer(place)%text = said
         longer(place)%line = number

@@ -80,9 +80,9 @@ contains
             integer, intent(in) :: at
             type(symbols_t) :: before
 
-            if (allocated(sheet%statements(at)%refusal)) then
+            if (sheet%statements(at)%refusal /= "") then
                 result(at)%verdict = is_unreadable
-                result(at)%remark = sheet%statements(at)%refusal
+                result(at)%remark = trim(sheet%statements(at)%refusal)
                 result(at)%example = ""
                 return
             end if
