@@ -3,7 +3,7 @@ module lagrangia_sweep_command
     use lagrangia_changed_scene, only: make_own_sweep
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note
-    use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
+    use lagrangia_data_files, only: check_format, data_path, path_beside, scene_path, script_path
     use lagrangia_degrees, only: degrees_in
     use lagrangia_description, only: description_t
     use lagrangia_disk_space, only: free_space, short, space_warning
@@ -102,7 +102,8 @@ contains
         if (allocated(error)) then
             call leave(result, path, error)
         else if (image_number() == 1) then
-            call write_sweep(sweep, result, path, format, sweep_lines(scene%sweep), error)
+            call write_sweep(sweep, result, path, format, sweep_lines(scene%sweep), error, &
+                             scene)
             if (allocated(error)) error%message = error%message//"; all trajectories are kept "// &
                 "in '"//part_name(path, 1)//"', '--resume' goes on"
         end if
@@ -304,6 +305,8 @@ contains
         if (allocated(error) .or. image_number() > 1) return
         call check_place(path, error)
         if (.not. allocated(error)) call check_place(script_path(path), error)
+        if (format == "text" .or. allocated(error)) return
+        call check_place(scene_path(path), error)
     end subroutine claim
 
     subroutine check_place(path, error)

@@ -1,13 +1,15 @@
 module lagrangia_sweep_files
     !! The data file of a sweep, a row a trajectory or a point of one, and beside it the gnuplot
-    !! script that draws it.
+    !! script that draws it, and the scene where the format has no place for it.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-    use lagrangia_data_files, only: new_table, script_path
+    use lagrangia_characters, only: printable
+    use lagrangia_column_names, only: told_apart
+    use lagrangia_data_files, only: new_table, scene_path, script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_output_file, only: commit_both, output_file_t
-    use lagrangia_scene, only: scene_line_length, scene_lines
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_grid, only: sweep_result_t
     use lagrangia_sweep_picture, only: sweep_script
@@ -20,15 +22,16 @@ module lagrangia_sweep_files
 
 contains
 
-    subroutine write_sweep(sweep, result, path, format, header, error)
-        !! Write the file at `path` and its script; both are there, or neither.
+    subroutine write_sweep(sweep, result, path, format, header, error, scene)
+        !! Write the file at `path`, its script and its scene; all are there, or none.
         type(sweep_t), intent(in) :: sweep                !! that has been computed
         type(sweep_result_t), intent(inout) :: result     !! what came out; its blocks are read
         character(*), intent(in) :: path, format          !! of the data file: text, csv or npy
         character(*), intent(in) :: header(:)             !! lines of the sweep as it was asked for
         type(error_t), allocatable, intent(out) :: error  !! of a file
+        type(scene_t), intent(in), optional :: scene      !! as it was asked for, to be run again
         class(table_t), allocatable :: table
-        type(output_file_t) :: script
+        type(output_file_t) :: beside, script
 
         call new_table(format, table)
         call table%file%open(path, error)
@@ -39,13 +42,70 @@ contains
             call script%write(sweep_script(sweep, result, bare_name(path), table%reading()))
             call script%complete(error)
         end if
-        if (allocated(error)) then
-            call table%file%abandon()
-            call script%abandon()
-        else
-            call commit_both(table%file, script, error)
+        if (.not. allocated(error)) call table%file%complete(error)
+        if (.not. allocated(error) .and. present(scene) .and. format /= "text") then
+            call write_scene(sweep, scene, header, scene_path(path), beside, error)
         end if
+        if (.not. allocated(error)) call table%file%commit(error)
+        if (.not. allocated(error)) call script%commit(error)
+        if (.not. allocated(error) .and. beside%is_open()) call beside%commit(error)
+        call table%file%abandon()
+        call script%abandon()
+        call beside%abandon()
     end subroutine write_sweep
+
+    subroutine write_scene(sweep, scene, header, path, file, error)
+        !! The scene and its sweep at `path`, what built it, and the columns with their units.
+        type(sweep_t), intent(in) :: sweep
+        type(scene_t), intent(in) :: scene
+        character(*), intent(in) :: header(:), path
+        type(output_file_t), intent(inout) :: file  !! complete but for its name
+        type(error_t), allocatable, intent(out) :: error
+        character(scene_line_length), allocatable :: lines(:)
+        character(16), allocatable :: units(:)
+        character(name_length + 10), allocatable :: names(:)
+        type(description_t) :: d
+        integer :: i
+
+        call file%open(path, error)
+        if (allocated(error)) return
+        call file%write("! lagrangia "//version//": "//printable(trim(scene%title))// &
+                        new_line("a")//"! build: "//build_text()//new_line("a")//"! columns:")
+        names = column_names(sweep)
+        units = column_units(sweep)
+        do i = 1, size(names)
+            call file%write(" "//trim(names(i))//"["//trim(units(i))//"]")
+        end do
+        call file%write(new_line("a"))
+        call sweep%system%describe(d)
+        lines = [character(scene_line_length) :: scene_lines(scene, d), header]
+        do i = 1, size(lines)
+            call file%write(trim(lines(i))//new_line("a"))
+        end do
+        call file%complete(error)
+    end subroutine write_scene
+
+    pure function column_names(sweep) result(names)
+        !! Those of the axes and of what is kept. An axis is where a motion begins: `theta_0`, where
+        !! `theta` is kept.
+        type(sweep_t), intent(in) :: sweep
+        character(name_length + 10) :: names(size(sweep%axes) + size(sweep%kept))
+        integer :: i
+
+        names = [character(len(names)) :: sweep%axes%name, sweep%kept%label]
+        do i = 1, size(sweep%axes)
+            if (any(sweep%kept%label == sweep%axes(i)%name)) names(i) = trim(names(i))//"_0"
+        end do
+        names = told_apart(names)
+    end function column_names
+
+    pure function column_units(sweep) result(units)
+        !! Of the same.
+        type(sweep_t), intent(in) :: sweep
+        character(16) :: units(size(sweep%axes) + size(sweep%kept))
+
+        units = [character(16) :: sweep%axes%unit, sweep%kept%unit]
+    end function column_units
 
     function sweep_header(sweep, lines) result(header)
         !! What tells the sweep, in the data file and where it is interrupted.
@@ -76,21 +136,16 @@ contains
         class(table_t), intent(inout) :: table
         type(error_t), allocatable, intent(out) :: error
         real(dp), allocatable :: values(:, :)
-        character(name_length) :: names(size(sweep%axes) + size(sweep%kept))
-        character(16) :: units(size(names))
-        real(dp) :: row(size(names))
+        real(dp) :: row(size(sweep%axes) + size(sweep%kept))
         character(:), allocatable :: counts
         integer(i8) :: block, i, rows
         integer :: k, kept, n
 
         rows = 0
         n = size(sweep%axes)
-        names(:n) = sweep%axes%name
-        units(:n) = sweep%axes%unit
-        names(n + 1:) = sweep%kept%label
-        units(n + 1:) = sweep%kept%unit
         kept = size(sweep%kept)
-        call table%begin(sweep_header(sweep, header), names, units, error)
+        call table%begin(sweep_header(sweep, header), column_names(sweep), column_units(sweep), &
+                         error)
         call table%send_header(error)
         do block = 1, result%store%blocks
             if (allocated(error)) return

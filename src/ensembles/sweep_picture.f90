@@ -112,7 +112,7 @@ contains
                 call script%add("set cblabel "//start_label(axis)//" offset 1")
             else
                 if (axis%logarithmic) call script%add("set logscale x")
-                call script%add("set xlabel "//label(axis%name, axis%unit))
+                call script%add("set xlabel "//axis_label(axis, sweep%kept))
                 call script%add("set ylabel "//kept_label(kept(1)))
                 using = "1:"//to_text(n + 1)
             end if
@@ -129,6 +129,21 @@ contains
         text = label(axis%name, axis%unit)
         text = """start: "//text(2:)
     end function start_label
+
+    pure function axis_label(axis, kept) result(text)
+        !! Of an axis: where a number of its name is kept, too, it says that it is the start's.
+        type(sweep_axis_t), intent(in) :: axis
+        type(kept_t), intent(in) :: kept(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = label(axis%name, axis%unit)
+        do i = 1, size(kept)
+            if (kept_label(kept(i)) /= label(axis%name, axis%unit)) cycle
+            text = start_label(axis)
+            return
+        end do
+    end function axis_label
 
     pure function kept_label(kept) result(text)
         !! Of an axis: a wrapped angle has the letter of the angle.
@@ -205,7 +220,7 @@ contains
                                      trim(merge("1  ", "0.5", axis%count <= few))
             call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1")
             call script%add(trim(merge("set logscale x  ", "unset logscale x", axis%logarithmic)))
-            call script%add("set xlabel "//label(axis%name, axis%unit))
+            call script%add("set xlabel "//axis_label(axis, sweep%kept))
             if (size(which) == 1) then
                 call script%add("unset key; set tmargin -1")
                 call script%add("set ylabel "//label(sweep%kept(which(1))%text, &
@@ -324,8 +339,8 @@ contains
             end if
             if (x%logarithmic) call script%add("set logscale x")
             if (y%logarithmic) call script%add("set logscale y")
-            call script%add("set xlabel "//label(x%name, x%unit))
-            call script%add("set ylabel "//label(y%name, y%unit))
+            call script%add("set xlabel "//axis_label(x, sweep%kept))
+            call script%add("set ylabel "//axis_label(y, sweep%kept))
             call script%add("set cblabel "//label(kept%text, kept%unit)//apart)
             call add_spread(script, "x", x%value(x%lowest()), x%value(x%highest()))
             call add_spread(script, "y", y%value(y%lowest()), y%value(y%highest()))

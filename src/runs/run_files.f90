@@ -2,6 +2,7 @@ module lagrangia_run_files
     !! The files of one run: data and events while it goes on, gnuplot scripts when it is done. All
     !! get their names together; what remains of a run that fails is called `NAME.partial`.
     use lagrangia_characters, only: printable
+    use lagrangia_column_names, only: told_apart
     use lagrangia_counted, only: counted
     use lagrangia_data_files, only: data_path, event_path, new_table, scene_path, &
                                     script_path
@@ -61,7 +62,8 @@ contains
             end do
             n = size(events%columns%items)
             call open_table(events, format, event_path(path), header, &
-                            [character(name_length) :: events%columns%names(n), "event"], &
+                            told_apart([character(name_length) :: events%columns%names(n), &
+                                                                  "event"]), &
                             [character(16) :: events%columns%units(n), "1"], error)
             if (allocated(error)) call record%abandon()
         end associate
