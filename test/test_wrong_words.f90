@@ -36,7 +36,8 @@ contains
         call suite%addTest(TestMethod("formulas_need_quotes", formulas_need_quotes))
         call suite%addTest(TestMethod("other_texts_need_quotes", other_texts_need_quotes))
         call suite%addTest(TestMethod("lists_are_shown", lists_are_shown))
-        call suite%addTest(TestMethod("settings_need_quotes", settings_need_quotes))
+        call suite%addTest(TestMethod("texts_are_no_lists", texts_are_no_lists))
+        call suite%addTest(TestMethod("settings_are_texts", settings_are_texts))
         call suite%addTest(TestMethod("other_reasons_stay", other_reasons_stay))
         call suite%addTest(TestMethod("one_argument_is_enough", one_argument_is_enough))
         call suite%addTest(TestMethod("good_words_pass", good_words_pass))
@@ -238,11 +239,65 @@ contains
                      "keep = 'period', 'max theta_dot'")
     end subroutine lists_are_shown
 
-    subroutine settings_need_quotes()
-        !! Behind `--set` those of a text that begins like a number.
-        call refused_scene("&lagrangian /", "--set lagrangian%T=1/2 m: &lagrangian: T"//needs// &
-                     '--set "lagrangian%T=''1/2 m''"', "lagrangian%T=1/2 m")
-    end subroutine settings_need_quotes
+    subroutine texts_are_no_lists()
+        !! In a file also a text that could be several values, or one value several times.
+        call refused_scene("&lagrangian V=2*x /", "a.nml:1:15: &lagrangian: V"//needs//"V = '2*x'")
+        call refused_scene("&lagrangian V=2*x*y, T=1 /", "&lagrangian: V"//needs//"V = '2*x*y'")
+        call refused_scene("&lagrangian V=2 k /", "a.nml:1:15: &lagrangian: V"//needs//"V = '2 k'")
+        call refused_scene("&lagrangian V=k x /", "a.nml:1:15: &lagrangian: V"//needs//"V = 'k x'")
+        call refused_scene("&lagrangian Q_x=2*x_dot /", "&lagrangian: Q_x"//needs// &
+                           "Q_x = '2*x_dot'")
+        call refused_scene("&sweep strobe=2*T_0 /", "&sweep: strobe"//needs//"strobe = '2*T_0'")
+    end subroutine texts_are_no_lists
+
+    subroutine settings_are_texts()
+        !! Behind `--set` a text needs no quotes, also if it begins like a number.
+        character(16), parameter :: texts(*) = [character(16) :: "2*x", "3*x^2", "2 k (x-1)^2", &
+            "1/2 k x^2", "(k/2) x^2", "-2*k*x", "2*3*x", "2", ".5*x", "1e-3 x", "2*", "1d-3 x"]
+        integer :: i
+
+        do i = 1, size(texts)
+            call same_as_quoted("lagrangian%V=", trim(texts(i)))
+            call same_as_quoted("lagrangian%Q_x = ", trim(texts(i)))
+        end do
+        call same_as_quoted("scene%title=", "2 pendulums, 3 springs")
+        call same_as_quoted("lagrangian%V=", "0,5 x")
+        call same_as_quoted("sweep%strobe=", "2 pi/k")
+    end subroutine settings_are_texts
+
+    subroutine same_as_quoted(setting, text)
+        !! Assert that the text without quotes is taken as with them, or refused as well.
+        character(*), intent(in) :: setting, text
+        character(:), allocatable :: bare, marked
+
+        call read_set(setting//text, bare)
+        call read_set(setting//"'"//text//"'", marked)
+        call assertEqual(marked, bare, message=setting//text)
+    end subroutine same_as_quoted
+
+    subroutine read_set(setting, shown)
+        !! The title and the formulas of a scene with the setting, or why it is refused.
+        character(*), intent(in) :: setting
+        character(:), allocatable, intent(out) :: shown
+        character(*), parameter :: scene = "&scene system='z', dt=0.1, duration=1, q=1, v=0 / "// &
+            "&lagrangian coordinates='x', parameters='k', T='x_dot^2/2', V='x^2' / &z k=1 /"
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(scene_t) :: read
+        type(word_t) :: overrides(1)
+        integer :: i
+
+        overrides(1)%text = setting
+        call parse_scene(scene, "a.nml", overrides, read, system, error)
+        if (allocated(error)) then
+            shown = error%message(index(error%message, ": &"):)
+            return
+        end if
+        shown = trim(read%title)//trim(read%sweep%strobe)
+        do i = 1, size(read%formulas)
+            shown = shown//trim(read%formulas(i))
+        end do
+    end subroutine read_set
 
     subroutine other_reasons_stay()
         !! Of numbers, of texts that have quotes, of what is wrong in another line.

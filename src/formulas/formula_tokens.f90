@@ -145,6 +145,8 @@ contains
         token%last = at - 1
         if (scan(text(at:)//" ", letters//"_") == 1 .and. &
             .not. is_order(text(:token%first - 1))) then
+            call refuse_exponent(text, token, at, error)
+            if (allocated(error)) return
             behind = at + verify(text(at:)//" ", inside) - 2
             call fail(error, "column "//to_text(token%column)//": a blank is missing in "// &
                       quoted(text(token%first:behind))//"; write "// &
@@ -157,6 +159,24 @@ contains
         call fail(error, "column "//to_text(token%column)//": "// &
                   quoted(text(token%first:token%last))//" "//problem)
     end subroutine take_number
+
+    pure subroutine refuse_exponent(text, token, at, error)
+        !! Refuse an exponent as Fortran has it, `1d-3`, which could be `1 d - 3` as well.
+        character(*), intent(in) :: text
+        type(token_t), intent(in) :: token  !! a number
+        integer, intent(in) :: at           !! of the letter behind it
+        type(error_t), allocatable, intent(out) :: error
+        integer :: first, last
+
+        if (scan(text(at:at), "dD") == 0) return
+        first = at + 1
+        if (scan(text(min(first, len(text)):), "+-") == 1) first = first + 1
+        last = first + verify(text(min(first, len(text) + 1):)//" ", digits) - 2
+        if (last < first) return
+        call fail(error, "column "//to_text(token%column)//": the exponent of a number stands "// &
+                  "behind an e; for "//quoted(text(token%first:last))//" write '"// &
+                  text(token%first:at - 1)//"e"//text(at + 1:last)//"'")
+    end subroutine refuse_exponent
 
     pure function is_order(before) result(yes)
         !! Is the number behind it that of `d^2theta/dt^2`?

@@ -4,7 +4,8 @@ module lagrangia_namelist_lexer
     use lagrangia_characters, only: described, unlike
     use lagrangia_errors, only: error_t
     use lagrangia_namelist_tree, only: fail_at, in_override, kind_number, kind_string, kind_word, &
-                                       max_values, name_length, namelist_t, raw_text, value_t
+                                       max_values, name_length, namelist_t, no_text, one_text, &
+                                       raw_text, value_t
     use lagrangia_number_reader, only: after, character_at, digits, letters, misread, &
                                        read_number, starts_number
     use lagrangia_text, only: escaped, lower, quoted, to_text
@@ -177,10 +178,12 @@ contains
             call read_string(tree, value, error)
             return
         end if
-        if (starts_number(tree%text(tree%at:))) value%kind = kind_number
+        if (starts_number(tree%text(tree%at:)) .and. .not. is_typed_text(tree)) then
+            value%kind = kind_number
+        end if
         last = token_end(tree%text, tree%at)
         if (in_override(tree, tree%at) .and. value%kind /= kind_number) then
-            last = override_end(tree%text, tree%at)
+            last = override_end(tree%text, tree%at, tree%typed)
         else
             call refuse_misread(tree, error)
             if (allocated(error)) return
@@ -317,17 +320,29 @@ contains
         end do
     end function small_number
 
-    pure function override_end(text, first) result(last)
-        !! The last byte of a text without quotes in an override: it runs to the next comma.
+    pure function is_typed_text(tree) result(yes)
+        !! Is what comes next a text of an override, though it may begin like a number: `2*x`?
+        !! `2*'x'` has quotes.
+        type(namelist_t), intent(in) :: tree
+        logical :: yes
+
+        yes = tree%typed /= no_text .and. in_override(tree, tree%at)
+        if (yes) yes = scan(tree%text(tree%at:), "'""") == 0
+    end function is_typed_text
+
+    pure function override_end(text, first, typed) result(last)
+        !! The last byte of a text without quotes in an override: it runs to the next comma, and to
+        !! the end where the key takes one text.
         character(*), intent(in) :: text
-        integer, intent(in) :: first
+        integer, intent(in) :: first, typed
         integer :: last
 
         last = first - 1
-        if (scan(text(first:first), "(),;=") == 1) return
+        if (scan(text(first:first), "),;=") == 1) return
+        if (text(first:first) == "(" .and. typed == no_text) return
         do last = first, len(text)
-            if (text(last:last) == "," .or. iachar(text(last:last)) < 32 .or. &
-                iachar(text(last:last)) == 127) exit
+            if (text(last:last) == "," .and. typed /= one_text) exit
+            if (iachar(text(last:last)) < 32 .or. iachar(text(last:last)) == 127) exit
         end do
         last = first - 1 + len_trim(text(first:last - 1))
     end function override_end

@@ -7,7 +7,7 @@ module lagrangia_namelist_parser
     use lagrangia_namelist_tree, only: add_entry, add_group, add_value, entry_t, fail_at, &
                                        find_entry, find_group, in_override, kind_number, label, &
                                        line_of, max_values, name_length, namelist_t, new_namelist, &
-                                       settle_twins, value_t
+                                       no_text, settle_twins, value_t
     use lagrangia_number_reader, only: after, character_at, digits, letters, starts_number
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
@@ -54,7 +54,7 @@ contains
                                                 "&name key = value, ... /", error)
     end subroutine parse_namelist
 
-    pure subroutine apply_override(tree, text, error)
+    pure subroutine apply_override(tree, text, error, typed)
         !! Let `GROUP%KEY=VALUE` replace or add an entry, and add the group if need be.
         !!
         !! `GROUP%KEY(2)=VALUE` replaces one element. Texts need no quotes here: one runs to the
@@ -63,9 +63,12 @@ contains
         type(namelist_t), intent(inout) :: tree  !! of a file, perhaps with earlier overrides
         character(*), intent(in) :: text         !! the override, in any case
         type(error_t), allocatable, intent(out) :: error  !! status 2: what it is not
+        integer, intent(in), optional :: typed   !! `one_text`, which has commas, or `some_texts`
         character(name_length) :: name
         integer :: first, group, i, last
 
+        tree%typed = no_text
+        if (present(typed)) tree%typed = typed
         last = len(tree%text)
         do i = size(tree%starts), 2, -1
             if (tree%text(tree%starts(i):last) == text) return

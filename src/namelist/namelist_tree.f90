@@ -1,7 +1,6 @@
 module lagrangia_namelist_tree
-    !! What a namelist file and its overrides say, as plain data: groups, their entries, the
-    !! entries' values; where each of them was written; and the refusal of those that are unknown,
-    !! missing or cannot be taken, with what was probably meant.
+    !! What a namelist file and its overrides say, as plain data: groups, entries and values, where
+    !! each was written; and the refusal of what is unknown or missing, with what was meant.
     use lagrangia_errors, only: error_t, fail, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: abbreviation, nearest_name
@@ -12,14 +11,14 @@ module lagrangia_namelist_tree
     public :: add_entry, add_group, add_value, drop_key, fail_at, find_entry, find_group, &
               in_override, is_overridden, label, line_of, new_namelist, raw_text, refuse_missing, &
               refuse_picked, refuse_unknown_groups, refuse_unknown_keys, settle_twins, spelling, &
-              text_of
-    public :: kind_number, kind_string, kind_word, max_values, name_length
+              text_of, kind_number, kind_string, kind_word, max_values, name_length, no_text, &
+              one_text, some_texts
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
-    integer, parameter :: max_groups = 100    !! in one file with its overrides
-    integer, parameter :: max_entries = 1000  !! in one file with its overrides
-    integer, parameter :: max_values = 10000  !! repeats counted, in one file with its overrides
-    integer, parameter :: few = 64            !! entries and values: there is room at once
+    integer, parameter :: max_groups = 100, max_entries = 1000, max_values = 10000
+    !! in one file with its overrides, values with their repeats
+    integer, parameter :: few = 64  !! entries and values: there is room at once
+    integer, parameter :: no_text = 0, one_text = 1, some_texts = 2  !! of a key, as far as known
     character(*), parameter :: whole = "lagrangia describe scene"  !! shows all keys
 
     integer, parameter :: kind_number = 1  !! a finite number
@@ -64,6 +63,7 @@ module lagrangia_namelist_tree
         integer :: group_count = 0, entry_count = 0, value_count = 0
         integer :: repeats_count = 0    !! values with their repeats
         integer :: at = 1               !! the byte of the text to be parsed next
+        integer :: typed = no_text      !! what the override's key takes: numbers, or texts
         character(100) :: context = ""  !! what the parser is in: `&scene: dt:`
     end type namelist_t
 

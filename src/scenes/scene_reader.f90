@@ -25,7 +25,7 @@ module lagrangia_scene_reader
     use lagrangia_sweep_group, only: read_sweep_group, sweep_group => group
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, quoted
-    use lagrangia_unquoted_text, only: ask_for_quotes
+    use lagrangia_unquoted_text, only: ask_for_quotes, refuse_unquoted, texts_of
     use lagrangia_usual_keys, only: refuse_usual_names
     use lagrangia_written_expressions, only: read_expressions, unused_parameters, &
                                              written_expressions_t
@@ -130,9 +130,15 @@ contains
 
         allocate (tree)
         call parse_namelist(text, source, tree, error)
+        if (allocated(error)) then
+            call ask_for_quotes(tree, error)
+        else
+            call refuse_unquoted(tree, error)
+        end if
+        if (allocated(error)) return
         do i = 1, size(overrides)
+            call apply_override(tree, overrides(i)%text, error, texts_of(overrides(i)%text))
             if (allocated(error)) exit
-            call apply_override(tree, overrides(i)%text, error)
         end do
         if (allocated(error)) call ask_for_quotes(tree, error)
         if (allocated(error)) return
@@ -380,6 +386,10 @@ contains
                 key = "coordinates"
                 if (size(formulas%positions) > 0 .and. &
                     any(["x_", "y_", "z_"] == name(:2))) key = "positions"
+                do k = 1, size(formulas%coordinates)
+                    own = lower(formulas%coordinates(k)%name)
+                    if (key == "coordinates" .and. index(name, trim(own)) == 1) element = k
+                end do
                 do k = 1, size(formulas%quantities)
                     own = lower(formulas%quantities(k)%name)
                     if (all(name /= [character(key_length) :: own, trim(own)//"_drift"])) cycle
