@@ -1,8 +1,8 @@
 module test_own_names
     !! What another sweep, or a system with other parameters, is called: every key that makes it
     !! another one is in its title and in its files' names.
-    use funit, only: TestMethod, TestSuite, assertEqual
-    use lagrangia_changed_scene, only: make_own_name, make_own_sweep
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse
+    use lagrangia_changed_scene, only: ending_start, make_own_name, make_own_scene, make_own_sweep
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_t
     use lagrangia_text, only: to_text, word_t
@@ -17,10 +17,40 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("own_names")
+        call suite%addTest(TestMethod("other_texts_have_other_files", &
+                                      other_texts_have_other_files))
         call suite%addTest(TestMethod("every_key_of_a_sweep_is_told", every_key_of_a_sweep_is_told))
         call suite%addTest(TestMethod("a_changed_system_has_its_own_name", &
                                       a_changed_system_has_its_own_name))
     end function own_names_suite
+
+    subroutine other_texts_have_other_files()
+        !! Formulas that differ in signs only, or in a blank; a title keeps the blanks of a text.
+        character(24), parameter :: settings(*) = [character(24) :: "lagrangian%V=k*x", &
+            "lagrangian%V=k/x", "lagrangian%V=k x", "lagrangian%V=kx", "lagrangian%V='k x'", &
+            "lagrangian%V='k*x'", "lagrangian%V='k/x'", "lagrangian%V='kx'", &
+            "lagrangian%V='k+x'", "lagrangian%V=k+2*x", "lagrangian%V=k-2*x"]
+        character(255) :: outputs(size(settings))
+        type(scene_t) :: scene
+        type(word_t) :: words(1)
+        integer :: i
+
+        do i = 1, size(settings)
+            scene%output = "z"
+            scene%title = "z"
+            if (.not. allocated(scene%expectations)) allocate (scene%expectations(0))
+            words(1)%text = trim(settings(i))
+            call make_own_scene(scene, words, [character(8) ::])
+            outputs(i) = scene%output
+            call assertFalse(any(outputs(:i - 1) == outputs(i)), settings(i))
+        end do
+        scene%title = "z"
+        words(1)%text = "scene%event='theta = 0 rising'"
+        call make_own_scene(scene, words, [character(8) ::])
+        call assertEqual("z (event='theta = 0 rising')", trim(scene%title))
+        call assertEqual(8, ending_start("pend.v2"), message="a version is no ending")
+        call assertEqual(7, ending_start("a/.hid"), message="a name that begins with a dot")
+    end subroutine other_texts_have_other_files
 
     subroutine every_key_of_a_sweep_is_told()
         !! Each in the title and in the file's name, one alone and all in a row.

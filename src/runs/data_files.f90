@@ -105,7 +105,7 @@ contains
         character(:), allocatable :: beside
         integer :: dot
 
-        dot = index(path, ".", back=.true.)
+        dot = ending_start(path)
         beside = path(:dot - 1)//words//path(dot:)
     end function path_beside
 
@@ -118,15 +118,15 @@ contains
     end function scene_path
 
     pure function script_path(path) result(script)
-        !! The gnuplot script beside a data file: `a.gp` of `a.dat`, `a.csv.gp` of `a.csv`, so that
-        !! no format writes over the script of another.
+        !! The gnuplot script beside a data file: `a.gp` of `a.dat`, `a.csv.gp` of `a.csv` and
+        !! `a.v2.gp` of `a.v2`, so that none writes over the script of another.
         character(*), intent(in) :: path  !! with or without an ending
         character(:), allocatable :: script
         integer :: dot
 
         dot = index(path, ".", back=.true.)
         if (dot <= index(path, "/", back=.true.)) dot = len(path) + 1
-        if (any(path(dot:) == endings(2:))) dot = len(path) + 1
+        if (path(dot:) /= endings(1)) dot = len(path) + 1
         script = path(:dot - 1)//".gp"
     end function script_path
 

@@ -17,6 +17,8 @@ module lagrangia_changed_scene
     character(*), parameter :: shown_only(*) = [character(11) :: "quantities", "equilibrium"]
     !! keys of `&lagrangian` that do: columns, and where small oscillations are looked for
     integer, parameter :: longest = 120  !! bytes of what a file's name gets
+    character(*), parameter :: plain_letters = "abcdefghijklmnopqrstuvwxyz"// &
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-"
 
 contains
 
@@ -212,56 +214,111 @@ contains
     end function as_described
 
     pure function ending_start(name) result(dot)
-        !! Where the ending of a file's name begins: a dot and a letter make one, `l_2.5` has none,
-        !! and then it is behind the name.
+        !! Where the ending of a file's name begins: a dot and up to four letters make one;
+        !! `l_2.5`, `pendulum.v2` and `.hidden` have none, and then it is behind the name.
         character(*), intent(in) :: name  !! of a file, perhaps below a folder
         integer :: dot
 
         dot = index(name, ".", back=.true.)
-        if (dot > index(name, "/", back=.true.) .and. dot < len(name)) then
-            if (scan(lower(name(dot + 1:dot + 1)), "abcdefghijklmnopqrstuvwxyz") == 1) return
+        if (dot > index(name, "/", back=.true.) + 1 .and. dot < len(name) .and. &
+            dot + 4 >= len(name)) then
+            if (verify(lower(name(dot + 1:)), "abcdefghijklmnopqrstuvwxyz") == 0) return
         end if
         dot = len(name) + 1
     end function ending_start
 
     pure subroutine split(text, group, key, value)
-        !! `Scene%q(2) = 0.5` into `scene`, `q` and, with the index, what follows; no blanks.
+        !! `Scene%q(2) = 0.5` into `scene`, `q` and, with the index, what follows; no blanks but
+        !! those within a text.
         character(*), intent(in) :: text
         character(:), allocatable, intent(out) :: group, key, value
-        character(:), allocatable :: plain
-        integer :: equals, i, percent
+        integer :: equals, percent
 
-        plain = ""
-        do i = 1, len(text)
-            if (text(i:i) > " ") plain = plain//text(i:i)
-        end do
-        percent = index(plain, "%")
-        equals = index(plain, "=")
-        group = lower(plain(:percent - 1))
-        key = lower(plain(percent + 1:equals - 1))
-        value = plain(equals + 1:)
+        percent = index(text, "%")
+        equals = index(text, "=")
+        group = lower(without_blanks(text(:percent - 1)))
+        key = lower(without_blanks(text(percent + 1:equals - 1)))
+        value = without_blanks(text(equals + 1:))
         if (index(key, "(") > 0 .and. group == "scene") key = key(:index(key, "(") - 1)//"_"// &
             key(index(key, "(") + 1:index(key//")", ")") - 1)
     end subroutine split
 
+    pure function without_blanks(text) result(plain)
+        !! The text without blanks, but those between quotes and between two words: `2 k x`.
+        character(*), intent(in) :: text
+        character(:), allocatable :: plain
+        character(1) :: mark
+        integer :: i, next
+
+        plain = ""
+        mark = " "
+        do i = 1, len(text)
+            if (mark /= " ") then
+                if (text(i:i) == mark) mark = " "
+            else if (text(i:i) == "'" .or. text(i:i) == """") then
+                mark = text(i:i)
+            else if (text(i:i) <= " ") then
+                next = i + verify(text(i:)//"=", " ") - 1
+                if (plain == "" .or. next > len(text)) cycle
+                if (.not. (in_word(plain(len(plain):)) .and. in_word(text(next:next)))) cycle
+            end if
+            plain = plain//text(i:i)
+        end do
+    end function without_blanks
+
+    elemental function in_word(byte) result(yes)
+        !! Is it a letter, a digit, a low line or a point?
+        character(1), intent(in) :: byte
+        logical :: yes
+
+        yes = index("abcdefghijklmnopqrstuvwxyz0123456789_.", lower(byte)) > 0
+    end function in_word
+
+    pure function is_ambiguous(changes) result(yes)
+        !! Would the file of other changes have the same letters? `k*x` and `k/x` are both `k_x`.
+        character(*), intent(in) :: changes
+        logical :: yes
+        character(1) :: mark
+        integer :: i
+
+        yes = .true.
+        mark = " "
+        do i = 1, len(changes)
+            if (mark /= " ") then
+                if (changes(i:i) == mark) then
+                    mark = " "
+                else if (index(plain_letters, changes(i:i)) == 0) then
+                    return
+                end if
+            else if (changes(i:i) == "'" .or. changes(i:i) == """") then
+                mark = changes(i:i)
+            else if (changes(i:i) == " ") then
+                if (i > 1 .and. changes(max(1, i - 1):max(1, i - 1)) /= ",") return
+            else if (index(plain_letters//"=,():+", changes(i:i)) == 0) then
+                return
+            end if
+        end do
+        yes = .false.
+    end function is_ambiguous
+
     pure function name_of(changes) result(name)
-        !! The same in letters that `output` takes: `m1_5_dt_1e-3`.
+        !! The same in letters that `output` takes, `m1_5_dt_1e-3`, and a sum of its bytes where
+        !! these do not tell it from another.
         character(*), intent(in) :: changes
         character(:), allocatable :: name
-        character(*), parameter :: plain = "abcdefghijklmnopqrstuvwxyz"// &
-            "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-"
         integer :: i
 
         name = ""
         do i = 1, len(changes)
             if (changes(i:i) == " " .or. changes(i:i) == "+") cycle
-            if (index(plain, changes(i:i)) > 0) then
+            if (index(plain_letters, changes(i:i)) > 0) then
                 name = name//changes(i:i)
             else
                 name = name//"_"
             end if
         end do
-        if (len(name) > longest) name = "changed_"//checksum(name)
+        if (is_ambiguous(changes)) name = name//"_"//checksum(changes)
+        if (len(name) > longest) name = "changed_"//checksum(changes)
     end function name_of
 
     pure function checksum(text) result(digits)
