@@ -448,6 +448,49 @@ for words in "sweep bifurcation --set sweep%strobe=w0" "sweep section --set swee
     run $words --output "$work/sweep"
     check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
 done
+run sweep section --format npy --set sweep%points=3 --set scene%output=three --output "$work/sweep"
+check "sweep: an axis and what is kept of the same name are two columns of npy" grep -aq "('theta2_dot_0', .*('wrapped_theta2', .*('theta2_dot', " "$work/sweep/three_sweep.npy"
+cp "$work/sweep/three_sweep.npy" "$work/three.npy"
+run sweep "$work/sweep/three_sweep.npy.nml" --format npy --set scene%output=again --output "$work/sweep"
+check "sweep: beside npy lies the scene, which gives the same numbers again" cmp "$work/three.npy" "$work/sweep/again_sweep.npy"
+run sweep pendulum --over theta=1:3.1:3 --keep theta --format csv --plot --output "$work/sweep"
+check "sweep: an axis that is kept, too, is that of the start" eval '[ "$(head -1 "$work/sweep/pendulum_sweep.csv")" = theta_0,theta ] &&
+    [ -s "$work/sweep/pendulum_sweep.csv.nml" ] && grep -q "^set xlabel \"start: " "$work/sweep/pendulum_sweep.csv.gp"'
+refuses 2 "a sweep measures no error" sweep pendulum --over theta=0.5:2.5:3 --keep error --output "$work/none"
+refuses 2 "'magnetic_z'; write 'magnetic(3)'" sweep charged_trap --over magnetic_z=0:1:3 --keep x --output "$work/none"
+mkdir "$work/names"
+for name in pend.v2 pend pend.old; do "$program" show scenes/pendulum.nml | grep -v "^ *output" >"$work/names/$name.nml"; done
+run run "$work/names/pend.v2.nml" "$work/names/pend.nml" "$work/names/pend.old.nml" --quiet --output "$work/names/o"
+check "run: names with dots have files of their own" eval '[ $status -eq 0 ] && [ "$(ls "$work/names/o" | tr "\n" " ")" = "pend.dat pend.gp pend.old pend.old.gp pend.v2.dat pend.v2.gp " ]'
+cat >"$work/event.nml" <<'END'
+&scene system = 'z', method = 'gauss16', tolerance = 1e-10, duration = 5, q = 1, v = 0, event = 'event = 0' /
+&lagrangian coordinates = 'event', T = 'event_dot^2/2', V = 'event^2/2' /
+END
+run run "$work/event.nml" --format npy --output "$work/names" --quiet
+check "run: a coordinate called event has a column of its own beside the event's number" grep -aq "('t', .*('event', .*('event_2', " "$work/names/event_events.npy"
+for sign in '*' / + -; do "$program" run "$work/event.nml" --set "lagrangian%V='event^2${sign}3'" --quiet --output "$work/signs" >"$work/out" 2>"$work/err"; done
+check "run: formulas that differ in a sign have files of their own" eval '[ "$(ls "$work/signs" | grep -c "dat$")" -eq 8 ]'
+run describe "$work/event.nml" --set "lagrangian%V=2*event"
+cp "$work/out" "$work/bare"
+run describe "$work/event.nml" --set "lagrangian%V='2*event'"
+check "a formula that begins with a number needs no quotes" eval 'grep -q "2 event" "$work/out" && cmp "$work/bare" "$work/out"'
+refuses 2 "write '1e-3'" describe "$work/event.nml" --set "lagrangian%V=1d-3 event"
+for name in derivation bench animation pendulum section; do
+    run show $name
+    check "show $name: by its name alone" eval '[ $status -eq 0 ] && [ -s "$work/out" ]'
+done
+refuses 2 "there are several of that name" show report
+methods=$("$program" compare --help | tr "\n" " " | tr -s " " | grep -o "compared: [a-z0-9_, ]*" | sed "s/compared: //; s/, boris//; s/ //g")
+run compare pendulum --methods "${methods%,dop853}" --output "$work/names/c"
+check "compare: the methods that its help lists are taken" eval '[ $status -eq 0 ] && [[ $methods = *,dop853 && $methods != *gsl_* ]]'
+for slip in $("$program" derive --help | tr "\n" " " | tr -s " " | grep -o "notes: [E0-9, ]*" | tr -d ",:a-z"); do
+    run derive cart_pendulum --slip $slip
+    check "derive --slip $slip: what its help lists is one of a derivation" eval '! grep -q "unknown slip\|no formula of a derivation" "$work/err"'
+done
+refuses 2 "two are written 'm > 0', 'm < 3'" describe "$work/event.nml" --set "lagrangian%domain='0 < m < 3'"
+refuses 2 "'lagrangia list scenes' shows those of this one" run pendulum --set scene%system=double_pendulum --output "$work/none"
+refuses 2 "behind '|' something is missing" describe "$work/event.nml" --set "lagrangian%V='|event|event|'"
+refuses 2 "'lagrangia help run' tells of it" -- run pendulum
 run sweep flip_map --keep thta2 --output "$work/sweep"
 check "sweep: what the command line has is not blamed on the file" eval '[ $status -eq 2 ] && ! grep -q "&sweep" "$work/err" && grep -q thta2 "$work/err"'
 mkfifo "$work/sweep/flip_map_sweep.dat.part"

@@ -164,7 +164,7 @@ contains
             call assertTrue(index(zsh, "--"//name) > 0, name)
             if (options(i)%takes == no_value) cycle
             call assertTrue(index(bash, "--"//name//") ") > 0, name)
-            name = value_words(kind_of_value(options(i)), " ")
+            name = value_words(kind_of_value(options(i), ""), " ")
             if (name /= "") call assertTrue(index(bash, "words='"//name//"'") > 0, name)
         end do
         call assertEqual(0, index(bash//zsh//manual, char(27)), "no colours")

@@ -65,19 +65,20 @@ contains
 
     subroutine bad_sweeps_are_refused()
         !! What is kept, too, with the key to blame.
-        character(*), parameter :: bad(3, 12) = reshape([character(40) :: &
+        character(*), parameter :: bad(3, 13) = reshape([character(40) :: &
             "q=0:1:3", "thta", "did you mean 'theta'?", &
             "q=0:1:3", "max thta", "did you mean 'theta'?", &
             "q=0:1:3", "period thta", "a coordinate is needed", &
             "q=0:1:3", "flip x", "a coordinate is needed", &
-            "q=0:1:3", "error", "no closed form", &
+            "q=0:1:3", "error", "a sweep measures no error", &
+            "q=0:1:3", "max error", "a sweep measures no error", &
             "q=0:1:3", "", "what is to be kept?", &
             "q=0:1:3", "max", "of what", &
             "q=0:1:3", "first", "of what", &
             "q=0:1:3", "first theta = theta", "a number is needed", &
             "q=0:1:3", "first theta = 1 up", "none of rising", &
             "q=0:1:", "theta", "a whole number of values", &
-            "q=-inf:1:3", "theta", "inf"], [3, 12])
+            "q=-inf:1:3", "theta", "inf"], [3, 13])
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         integer :: i

@@ -113,7 +113,7 @@ contains
         call refused("coordinates = 'r', 'r'"//behind, "a.nml:2:32: &lagrangian: coordinates = "// &
                      "'r': the name 'r' is given twice; take another one")
         call refused("coordinates = 't'"//behind, "a.nml:2:27: &lagrangian: coordinates = 't': "// &
-                     "the name 't' is given twice; take another one")
+                     "'t' is the time; take another name")
         call refused("coordinates = 'pi'"//behind, "a.nml:2:27: &lagrangian: coordinates = "// &
                      "'pi': 'pi' is the number 3.14159...; take another name")
         call refused("coordinates = 'x_dot'"//behind, "a.nml:2:27: &lagrangian: coordinates = "// &

@@ -72,18 +72,21 @@ contains
             call add("        break")
             call add("    done")
         end if
-        call add("    case $prev in")
+        call add("    case $command$prev in")
+        do i = 1, size(commands)
+            do k = 1, size(options)
+                if (options(k)%takes == needs_value .and. accepts(commands(i), options(k)%name) &
+                    .and. kind_of_value(options(k), trim(commands(i)%name)) /= &
+                    kind_of_value(options(k), "")) call add_option(trim(commands(i)%name), k)
+            end do
+        end do
         do i = 1, size(options)
-            if (options(i)%takes /= needs_value) cycle
-            call add("        --"//trim(options(i)%name)//") "//trim(list)//"='"// &
-                     value_words(kind_of_value(options(i)), " ")//"' files="// &
-                     trim(merge("folders", "       ", kind_of_value(options(i)) == "folder"))// &
-                     " command=- ;;")
+            if (options(i)%takes == needs_value) call add_option("", i)
         end do
         do i = 1, size(options)
             if (options(i)%takes /= may_have_value .or. shell /= "bash") cycle
-            call add("        --"//trim(options(i)%name)//") [[ -z $equals ]] || { words='"// &
-                     value_words(kind_of_value(options(i)), " ")//"' command=-; } ;;")
+            call add("        *--"//trim(options(i)%name)//") [[ -z $equals ]] || { words='"// &
+                     value_words(kind_of_value(options(i), ""), " ")//"' command=-; } ;;")
         end do
         call add("    esac")
         call add("    case $command in")
@@ -129,6 +132,20 @@ contains
             text = text//line//lf
         end subroutine add
 
+        subroutine add_option(command, which)
+            !! What its value may be, with this command or, without a name, with any.
+            character(*), intent(in) :: command
+            integer, intent(in) :: which
+            character(:), allocatable :: kind, pattern
+
+            kind = kind_of_value(options(which), command)
+            pattern = command
+            if (command == "") pattern = "*"
+            call add("        "//pattern//"--"//trim(options(which)%name)//") "//trim(list)// &
+                     "='"//value_words(kind, " ")//"' files="// &
+                     trim(merge("folders", "       ", kind == "folder"))//" command=- ;;")
+        end subroutine add_option
+
         function names_of_commands() result(list)
             character(:), allocatable :: list
 
@@ -170,7 +187,7 @@ contains
                        options(k)%name == "version")) cycle
             list = list//"--"//trim(options(k)%name)//" "
             if (options(k)%takes == may_have_value .and. shell == "zsh") list = list//"--"// &
-                trim(options(k)%name)//"="//value_words(kind_of_value(options(k)), &
+                trim(options(k)%name)//"="//value_words(kind_of_value(options(k), ""), &
                                                         " --"//trim(options(k)%name)//"=")//" "
         end do
         list = trim(list)

@@ -87,8 +87,8 @@ contains
             if (which > 1 .and. options(i)%name /= "help" .and. options(i)%name /= "version") then
                 if (.not. accepts(commands(which), options(i)%name)) cycle
             end if
-            call add_item(usage(options(i)), meaning_with_values(options(i), which > 1), &
-                          indentation)
+            call add_item(usage(options(i)), &
+                          meaning_with_values(options(i), trim(commands(which)%name)), indentation)
         end do
         if (which > 1) then
             if (page > 0) then
@@ -150,17 +150,17 @@ contains
         end subroutine add_values
     end function help_text
 
-    function meaning_with_values(option, long) result(text)
+    function meaning_with_values(option, command) result(text)
         !! What an option does; in a command's own help its values too, where they are words.
         type(option_t), intent(in) :: option
-        logical, intent(in) :: long
+        character(*), intent(in) :: command  !! empty: of all
         character(:), allocatable :: text, values
 
         text = trim(option%meaning)
-        if (.not. long) return
-        select case (kind_of_value(option))
-        case ("slips", "contestants", "problems")
-            values = value_words(kind_of_value(option), ", ")
+        if (command == "") return
+        select case (kind_of_value(option, command))
+        case ("derivable", "contestants", "compared", "problems")
+            values = value_words(kind_of_value(option, command), ", ")
             text = text//": "//values
         case ("settings")
             text = text//"; 'lagrangia describe scene' and 'lagrangia describe SYSTEM' show "// &

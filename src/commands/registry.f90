@@ -94,7 +94,7 @@ module lagrangia_registry
         command_t("list", "[systems|methods|scenes|sweeps]", "what there is, one a line", 1, "", &
                   takes="lists"), &
         command_t("show", "[FILE...]", "a scene or sheet that comes with the program, as it is", &
-                  -1, "", takes="carried"), &
+                  -1, "", takes="scenes sweeps carried"), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
                   "every key of a scene", 1, "set", takes="systems scenes scene"), &
         command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &

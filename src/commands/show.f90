@@ -42,9 +42,12 @@ contains
                     chosen(i)%text = paths(k)%text
                     exit
                 end do
+                if (.not. allocated(chosen(i)%text)) call take_stem(word, chosen(i))
                 if (allocated(chosen(i)%text)) cycle
                 near = nearest_name(word, names)
-                if (near /= "") then
+                if (any(names == word)) then
+                    near = "there are several of that name; 'lagrangia show' lists them"
+                else if (near /= "") then
                     near = "did you mean '"//near//"'?"
                 else
                     near = "'lagrangia show' lists them"
@@ -57,6 +60,17 @@ contains
             call shipped_text(chosen(i)%text, text)
             call put(text)
         end do
+    contains
+        subroutine take_stem(word, choice)
+            !! The only file that is called so but for its ending.
+            character(*), intent(in) :: word
+            type(word_t), intent(inout) :: choice
+            integer :: which
+
+            if (count(names(:size(paths)) == word) /= 1) return
+            which = findloc(names(:size(paths)), word, 1)
+            choice%text = paths(which)%text
+        end subroutine take_stem
     end subroutine show_command
 
     pure function is_meant(word, path) result(yes)

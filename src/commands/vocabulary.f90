@@ -6,9 +6,11 @@ module lagrangia_vocabulary
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: option_t
     use lagrangia_contestants, only: contestant_names
+    use lagrangia_derivation_slips, only: derivable_slips
     use lagrangia_description, only: description_t
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
+    use lagrangia_methods, only: adaptive_names, method_names
     use lagrangia_names, only: name_length
     use lagrangia_principles, only: principle_names
     use lagrangia_registry, only: commands
@@ -45,7 +47,9 @@ contains
         case ("problems"); call take(problem_names)
         case ("contestants"); call take(contestant_names())
         case ("rows"); names = [character(name_length) :: (rows(i)%name, i=1, size(rows))]
+        case ("compared"); call take_methods()
         case ("slips"); call slip_ids(names)
+        case ("derivable"); call take(derivable_slips)
         case ("lists"); call split("systems|methods|scenes|sweeps", names)
         case ("shells"); call split("bash|zsh", names)
         case ("lectures"); call split("I|II", names)
@@ -66,6 +70,17 @@ contains
             allocate (names(size(list)))
             names(:) = list
         end subroutine take
+
+        subroutine take_methods()
+            !! Those of fixed steps and those of a tolerance, each once.
+            character(name_length), allocatable :: others(:)
+
+            call take(method_names())
+            allocate (others, source=adaptive_names())
+            do i = 1, size(others)
+                if (all(names /= others(i))) names = [character(name_length) :: names, others(i)]
+            end do
+        end subroutine take_methods
 
         subroutine of_files(folder, stems)
             character(*), intent(in) :: folder
@@ -140,17 +155,20 @@ contains
         end do
     end subroutine settings
 
-    pure function kind_of_value(option) result(kind)
+    pure function kind_of_value(option, command) result(kind)
         !! What the value of an option is, for `words_of`: `folder` and what is free text besides.
         type(option_t), intent(in) :: option  !! that takes one
+        character(*), intent(in) :: command   !! of which it is one: `compare`
         character(:), allocatable :: kind
 
         select case (option%name)
         case ("set"); kind = "settings"
         case ("output"); kind = "folder"
-        case ("slip"); kind = "slips"
+        case ("slip"); kind = "derivable"
         case ("keep"); kind = ""  ! columns, of whatever scene it is
-        case ("methods"); kind = "contestants"
+        case ("methods")
+            kind = "contestants"
+            if (command == "compare") kind = "compared"
         case ("problems", "systems"); kind = trim(option%name)
         case default
             kind = ""

@@ -272,8 +272,9 @@ contains
         character(:), allocatable :: text
 
         text = ""
-        if (command%name /= "help") text = ", 'lagrangia help "//trim(command%name)// &
-                                           "' shows what '"//trim(command%name)//"' takes"
+        if (command%name == "help" .or. command%name == "") return
+        text = ", 'lagrangia help "//trim(command%name)//"' shows what '"// &
+               trim(command%name)//"' takes"
     end function taken_instead
 
     pure subroutine refuse_more(command, arguments, error)

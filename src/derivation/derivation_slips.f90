@@ -4,12 +4,13 @@ module lagrangia_derivation_slips
     use lagrangia_derivation_steps, only: slip_in_formula_t
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: lower, quoted
+    use lagrangia_text, only: join, lower, quoted
     implicit none (type, external)
     private
-    public :: find_slip
+    public :: derivable_slips, find_slip
 
-    character(*), parameter :: derivable_slips = "E1, E2, E3, E21, E25"  !! those that there are
+    character(3), parameter :: derivable_slips(*) = ["E1 ", "E2 ", "E3 ", "E21", "E25"]
+    !! those that there are
 
 contains
 
@@ -49,10 +50,10 @@ contains
         case default
             if (reads == "") then
                 call fail(error, "unknown slip "//quoted(id)//"; 'lagrangia errata' lists "// &
-                          "them, and a derivation takes "//derivable_slips)
+                          "them, and a derivation takes "//join(derivable_slips, ", "))
             else
                 call fail(error, "slip "//quoted(id)//" is no formula of a derivation; those "// &
-                          "are "//derivable_slips)
+                          "are "//join(derivable_slips, ", "))
             end if
             return
         end select

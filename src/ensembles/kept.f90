@@ -141,6 +141,10 @@ contains
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
                           "'wrapped ANGLE', 'period', 'exact period', 'exact max "// &
                           "COORDINATE', 'first EVENT', 'flip ANGLE', 'lyapunov', 'attractor'")
+            else if (text == "error" .or. &
+                     rest == "error" .and. any(first == ["max", "min"])) then
+                call fail(error, "a sweep measures no error; 'lagrangia run SCENE' tells that "// &
+                          "of one trajectory")
             else if (any(text == ["first", "max  ", "min  "])) then
                 call fail(error, "what is wanted of what? 'first theta = 0.5 rising', 'max COLUMN'")
             else if (text == "exact period") then

@@ -236,6 +236,11 @@ contains
         if (i == 0) then
             call system%describe(d)
             short = abbreviation(name, [character(name_length) :: d%parameters%name])
+            if (component(name, names) > 0) then
+                call fail(error, "a sweep cannot change "//quoted(name)//"; write '"// &
+                          trim(names(component(name, names)))//"'")
+                return
+            end if
             if (nearest_name(name, names) == "" .and. short /= "") then
                 call fail(error, "a sweep cannot change "//quoted(name)//"; did you mean '"// &
                           short//"'?")
@@ -252,6 +257,20 @@ contains
         axis%kind = targets(i)%kind
         axis%element = targets(i)%element
     end subroutine find_target
+
+    pure function component(name, names) result(which)
+        !! Which of the names is the component that `magnetic_z` means, `magnetic(3)`; 0: none.
+        character(*), intent(in) :: name, names(:)
+        integer :: which
+        integer :: last
+
+        which = 0
+        last = index(name, "_", back=.true.)
+        if (last < 2 .or. last /= len(name) - 1) return
+        which = index("xyz", name(last + 1:))
+        if (which == 0) return
+        which = findloc(names == name(:last - 1)//"("//to_text(which)//")", .true., 1)
+    end function component
 
     subroutine all_targets(system, targets)
         !! Every number of the start and of the parameters, by all its names.

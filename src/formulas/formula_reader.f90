@@ -205,7 +205,7 @@ contains
             call refuse(reader, "the formula is empty; write one like m g l cos(theta)", error)
         else if (before == "=" .or. (before == "" .and. word == "=")) then
             call refuse(reader, "a side of the equation is empty; write 0 if it is zero", error)
-        else if (before == "(" .or. before == "" .or. before == "|") then
+        else if (word /= "" .and. (before == "(" .or. before == "" .or. before == "|")) then
             call refuse(reader, quoted(word)//" lacks what stands before it; write a*b", error)
         else if (word == "" .or. word == ")" .or. word == "=" .or. word == "|") then
             call refuse(reader, "behind "//quoted(before)//" something is missing; complete it "// &

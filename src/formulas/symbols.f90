@@ -176,7 +176,9 @@ contains
         character(*), intent(in) :: name
         type(error_t), allocatable, intent(out) :: error
 
-        if (self%find(name) > 0 .or. self%find_definition(name) > 0) then
+        if (self%find(name) == 1 .and. name == "t") then
+            call fail(error, "'t' is the time; take another name")
+        else if (self%find(name) > 0 .or. self%find_definition(name) > 0) then
             call fail(error, "the name "//quoted(name)//" is given twice; take another one")
         end if
     end subroutine refuse_taken

@@ -214,7 +214,8 @@ contains
         if (allocated(error)) return
         if (any(.not. ieee_is_finite(start))) then
             call fail(error, "with these parameters the equilibrium of "//trim(d%name)// &
-                      " is no number: a sine or cosine beyond 1, or a division by zero")
+                      " is no number: a root of a negative number, a sine or cosine beyond 1, "// &
+                      "or a division by zero")
             return
         end if
         qq%re = start

@@ -140,6 +140,11 @@ contains
             if (k > size(self%drifts)) return
             if (self%drifts(k)%value < 1.0_dp .or. &
                 epsilon(1.0_dp)*self%energy_terms < 0.01_dp*self%drifts(k)%value) return
+            if (self%energy_terms > huge(1.0_dp)) then
+                call add("the terms of the energy have grown beyond what a double holds: their "// &
+                         "drift says nothing about the motion")
+                return
+            end if
             call add("the terms of the energy have grown to "//two_digits(self%energy_terms)// &
                      " times what its drift is relative to, and a double keeps 16 digits of "// &
                      "them: that drift is their rounding and says nothing about the motion")

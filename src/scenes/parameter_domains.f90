@@ -31,6 +31,10 @@ contains
             call fail(error, "a domain is written 'm > 0', with >, >=, < or <=")
             return
         end if
+        if (scan(text(at + 1:), "<>") > 0 .or. scan(text(:at - 1), "=") > 0) then
+            call fail(error, "a text has one bound; two are written 'm > 0', 'm < 3'")
+            return
+        end if
         name = trim(adjustl(text(:at - 1)))
         above = text(at:at) == ">"
         open = text(at + 1:min(at + 1, len(text))) /= "="

@@ -148,6 +148,11 @@ contains
         character(:), allocatable :: remedy
 
         remedy = ""
+        if (is_overridden(tree, "scene", "system")) then
+            remedy = "; the file is a scene of another system; 'lagrangia list scenes' shows "// &
+                     "those of this one"
+            return
+        end if
         if (size(tree%starts) == 1 .or. is_overridden(tree, "scene", "q")) return
         remedy = "; add --set scene%q="//to_text(ndof)//" values"
         if (all(abs(q - q(1)) <= 0.0_dp)) remedy = "; add --set scene%q="//to_text(ndof)//"*"// &

@@ -162,9 +162,8 @@ contains
         before = ""
         call add("A scene is a text of groups '&group key = value, ... /'. Texts stand between "// &
                  "apostrophes, numbers have a")
-        call add("point, ! begins a comment; case does not matter. '--set GROUP%KEY=VALUE' "// &
-            "goes "// &
-                 "before what the file says.")
+        call add("point, ! begins a comment; case matters in texts only. '--set "// &
+                 "GROUP%KEY=VALUE' goes before what the file says.")
         do i = 1, size(entries)
             item = entries(i)
             if (i == 1) then
