@@ -76,5 +76,7 @@ contains
         call assertEqual("x_{1,2}", latex_name("x_1_2"))
         call assertEqual("I_{\mathrm{roll}}", latex_name("I_roll"))
         call assertEqual("m_{12}", latex_name("m12"))
+        call assertEqual("\omega_{\mathrm{long},\mathrm{name}}", latex_name("omega_long_name"))
+        call assertEqual("x_{\phi,1}", latex_name("x_phi_1"))
     end subroutine names_are_letters_with_indices
 end module test_formula_latex

@@ -80,6 +80,9 @@ contains
         call assertEqual("""energy drift""", label("energy_drift", "1"))
         call assertEqual("""x""", label("x", ""))
         call assertEqual("""w (m^{})""", label("w", "m^"))
+        call assertEqual("""x (m^{1/2} s)""", label("x", "m^(1/2) s"))
+        call assertEqual("""w (m^{}()""", label("w", "m^("))
+        call assertEqual("""p_{1}""", label("p_1", "?"), "a unit that is not known")
     end subroutine units_have_powers
 
     subroutine odd_texts_are_not_read()

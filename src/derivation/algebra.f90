@@ -1,7 +1,8 @@
 module lagrangia_algebra
     !! Formulas as sums of products of atoms, with derivatives. An atom is a name, a function of
     !! such a sum, or a sum that is divided by or raised to a power.
-    use lagrangia_exact_number, only: number_t, operator(/), operator(==), power, ratio
+    use lagrangia_exact_number, only: number_t, operator(*), operator(/), operator(==), power, &
+                                      ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
                                     f_sgn, f_sin, f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, &
                                     kind_function, kind_negation, kind_number, kind_power, &
@@ -210,6 +211,7 @@ contains
         integer, intent(in) :: which                !! one of `f_abs` to `f_tanh`
         type(polynomial_t), intent(in) :: argument  !! of the function
         type(polynomial_t), intent(out) :: p        !! what it becomes
+        type(number_t) :: root
         logical :: odd, even
         integer :: atom
 
@@ -219,6 +221,19 @@ contains
         if (argument%terms == 0 .and. any(which == [f_cos, f_cosh, f_exp])) then
             p = whole_polynomial(1)
             return
+        end if
+        if (argument == whole_polynomial(1) .and. which == f_log) return
+        if (argument%terms == 1 .and. which == f_sqrt) then
+            associate (c => argument%coefficient(1))
+                if (all(argument%power(:, 1) == 0) .and. c%is_exact() .and. c%value > 0.0_dp) then
+                    root = ratio(nint(sqrt(real(c%numerator, dp)), i8), &
+                                 nint(sqrt(real(c%denominator, dp)), i8))
+                    if (root*root == c) then
+                        p = number_polynomial(root)
+                        return
+                    end if
+                end if
+            end associate
         end if
         if (argument%terms > 0 .and. (odd .or. even)) then
             if (argument%coefficient(1)%value < 0.0_dp) then

@@ -29,6 +29,7 @@ contains
         type(polynomial_t), intent(in) :: mass(:, :), drag(:, :), stiffness(:, :)  !! (n, n)
         type(polynomial_t), allocatable :: matrix(:, :), c(:)
         type(polynomial_t) :: p
+        character(:), allocatable :: rest
         integer :: i, k
 
         if (self%n == 1) then
@@ -36,9 +37,9 @@ contains
             return
         end if
         if (self%n > most_expanded) then
-            call self%add_words("det("//name()//"^2 M + "//name()//" "//letter// &
-                                " + K) is not written out for more than "// &
-                                to_text(most_expanded)//" coordinates")
+            rest = " is not written out for more than "//to_text(most_expanded)//" coordinates"
+            call self%add_words("det("//name()//"^2 M + "//name()//" "//letter//" + K)"//rest, &
+                                "$\det("//tex()//"^2 M + "//tex()//" "//letter//" + K)$"//rest)
             return
         end if
         allocate (matrix(self%n, self%n))
@@ -52,7 +53,8 @@ contains
         allocate (c(2*self%n + 1))
         call collect_powers(self, p, self%rate(), 1, c)
         call self%add_words("q goes as exp("//name()//" t): det("//name()//"^2 M + "//name()// &
-                            " "//letter//" + K) = 0")
+                            " "//letter//" + K) = 0", "$q$ goes as $e^{"//tex()//" t}$: $\det("// &
+                            tex()//"^2 M + "//tex()//" "//letter//" + K) = 0$")
         call add_polynomial(self, line_rates, self%rate(), 1, c)
     contains
         function name() result(text)
@@ -60,6 +62,12 @@ contains
 
             text = trim(self%symbols%names(self%rate()))
         end function name
+
+        function tex() result(text)
+            character(:), allocatable :: text
+
+            text = latex_name(name())
+        end function tex
     end subroutine add_rates
 
     subroutine add_one(self, mass, drag, stiffness)
@@ -74,7 +82,9 @@ contains
         if (self%symbols%find(letter) > 0) letter = "Gamma"
         call lay_out_quotient(self%algebra, self%roles, drag, whole_polynomial(2)*mass, rate)
         call lay_out_quotient(self%algebra, self%roles, stiffness, mass, free)
-        call self%add_words("q goes as exp(-"//letter//" t) cos("//name//" t)")
+        call self%add_words("q goes as exp(-"//letter//" t) cos("//name//" t)", &
+                            "$q$ goes as $e^{-"//latex_name(letter)//" t} \cos("// &
+                            latex_name(name)//" t)$")
         call self%add(line_decay, letter, latex_name(letter), drag, e=rate)
         if (drag%terms > 0) free = free - rate**2
         call self%add(line_damped_omega2, name//"^2", "\"//name//"^2", stiffness, e=free)

@@ -92,7 +92,7 @@ contains
         type(modes_t), intent(in) :: modes         !! about that place
         type(error_t), allocatable :: error
         type(polynomial_t), allocatable :: at(:), mass(:, :), gyroscopic(:, :), stiffness(:, :)
-        character(:), allocatable :: turning, where_at
+        character(:), allocatable :: tex, turning, where_at
         character :: letter
         logical :: of_position, away, drag
         integer, allocatable :: resting(:)
@@ -130,8 +130,16 @@ contains
                 where_at = where_at//", "//trim(self%d%coordinates(i)%name)//" = 0"
             end do
             where_at = "about"//where_at(2:)//": "
+            tex = ""
+            do i = 1, self%n
+                tex = tex//", $"//latex_name(trim(self%d%coordinates(i)%name))//" = 0$"
+            end do
+            tex = "about"//tex(2:)//": "
         end if
-        call self%add_words(where_at//turning//" = 0 with")
+        if (.not. allocated(tex)) tex = where_at
+        tex = tex//"$M \ddot{q}"
+        if (any_terms(gyroscopic)) tex = tex//" + "//letter//" \dot{q}"
+        call self%add_words(where_at//turning//" = 0 with", tex//" + K q = 0$ with")
         call add_elements(self, line_rest_mass, "M", mass)
         call add_elements(self, line_gyroscopic, letter, gyroscopic)
         call add_elements(self, line_stiffness, "K", stiffness)
@@ -241,6 +249,7 @@ contains
         type(polynomial_t), intent(in) :: mass(:, :), gyroscopic(:, :), stiffness(:, :)
         type(polynomial_t), allocatable :: matrix(:, :), c(:)
         type(polynomial_t) :: p, zero
+        character(:), allocatable :: rest
         logical :: one_root
         integer :: i, k
 
@@ -251,8 +260,9 @@ contains
             return
         end if
         if (self%n > most_expanded) then
-            call self%add_words("det(K - "//name()//"^2 M) is not written out for more than "// &
-                                to_text(most_expanded)//" coordinates")
+            rest = " is not written out for more than "//to_text(most_expanded)//" coordinates"
+            call self%add_words("det(K - "//name()//"^2 M)"//rest, &
+                                "$\det(K - "//latex_name(name())//"^2 M)$"//rest)
             return
         end if
         allocate (matrix(self%n, self%n))

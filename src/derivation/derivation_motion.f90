@@ -110,7 +110,8 @@ contains
         allocate (columns(self%n, self%n))
         call determinant(mass, below)
         if (below%terms == 0) then
-            call self%add_words("det M = 0: the accelerations are not determined")
+            call self%add_words("det M = 0: the accelerations are not determined", &
+                                "$\det M = 0$: the accelerations are not determined")
             return
         end if
         do k = 1, self%n
@@ -154,7 +155,8 @@ contains
             known(k) = -rate
         end do
         call self%add_words("M q_ddot = f, put into the time derivatives of the constraints, "// &
-                            "gives the multipliers")
+                            "gives the multipliers", "$M \ddot{q} = f$, put into the time "// &
+                            "derivatives of the constraints, gives the multipliers")
         call determinant(rows, below)
         call shorten(self%algebra, below)
         forces = f
@@ -199,7 +201,8 @@ contains
             tex = latex_name(left)
         end if
         if (len(formula_text(e, self%symbols)) > longest) then
-            call self%add_words(left//" takes more than "//to_text(longest)//" characters")
+            call self%add_words(left//" takes more than "//to_text(longest)//" characters", &
+                                "$"//tex//"$ takes more than "//to_text(longest)//" characters")
         else
             call self%add(kind, left, tex, above, i, e=e)
         end if

@@ -8,7 +8,7 @@ module lagrangia_formula_latex
                                       rank_product, rank_sum
     use lagrangia_latex_source, only: greek
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_text, only: replaced, word_t
+    use lagrangia_text, only: word_t
     implicit none (type, external)
     private
     public :: latex, latex_name
@@ -194,7 +194,15 @@ contains
         index_text = name(k:length)
         if (index_text(1:1) == "_") index_text = index_text(2:)
         if (len(index_text) == 0) return
-        text = base//"_{"//letter(replaced(index_text, "_", ","))//"}"
+        text = base//"_{"
+        do
+            k = index(index_text//"_", "_")
+            text = text//letter(index_text(:k - 1))
+            if (k > len(index_text)) exit
+            text = text//","
+            index_text = index_text(k + 1:)
+        end do
+        text = text//"}"
     end function latex_name
 
     pure function letter(name) result(text)
@@ -207,7 +215,7 @@ contains
             text = "\ell"
         else if (any(greek == name)) then
             text = "\"//name
-        else if (len(name) > 1 .and. scan(name, "0123456789,") == 0) then
+        else if (len(name) > 1 .and. scan(name, "0123456789") == 0) then
             text = "\mathrm{"//name//"}"
         end if
     end function letter

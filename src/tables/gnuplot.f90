@@ -263,7 +263,8 @@ contains
             end do
             if (k > size(panels)) frames(i)%below = .true.
         end do
-        ! What is beside and what is not end at the same height.
+        ! What is beside and what is not end at the same height, as far as there is something to
+        ! be seen in it: drawn to scale, a panel three times as tall is mostly empty.
         y = 0.0_dp
         do i = 1, size(panels)
             k = merge(1, 2, beside(i))
@@ -273,8 +274,8 @@ contains
             more = y(1) - y(2)
             do i = 1, size(panels)
                 if (more > 0.0_dp .and. .not. beside(i)) bodies(i) = bodies(i) + more/plain
-                if (more < 0.0_dp .and. beside(i)) bodies(i) = bodies(i) - &
-                    more/(size(panels) - plain)
+                if (more < 0.0_dp .and. beside(i)) bodies(i) = min(3.0_dp*bodies(i), bodies(i) - &
+                                                                  more/(size(panels) - plain))
             end do
         end if
         height = nint(top + maxval(y))

@@ -26,7 +26,7 @@ contains
 
     pure function label(name, unit) result(string)
         !! `theta_dot` in `rad/s` as a string of gnuplot with what must stand behind it: the letter
-        !! with its dot, and `(rad/s)`. A pure number has no unit.
+        !! with its dot, and `(rad/s)`. A pure number has no unit, and `?` is one that is not known.
         character(*), intent(in) :: name, unit  !! of a column
         character(:), allocatable :: string
 
@@ -34,7 +34,7 @@ contains
             string = gnuplot_string(trim(symbol(trim(name))//" "//unit_text(unit)))
         else if (with_symbols(trim(name)) /= "" .and. is_unit(trim(unit))) then
             string = gnuplot_string(trim(with_symbols(trim(name))//" "//unit_text(unit)))
-        else if (unit == "1" .or. unit == "") then
+        else if (unit_text(unit) == "") then
             string = plain_label(trim(name))
         else
             string = text_label(trim(name)//" ("//trim(unit)//")")
@@ -87,18 +87,23 @@ contains
     end function width_of
 
     pure function unit_text(unit) result(text)
-        !! `(m/s^{2})`; nothing for a pure number.
+        !! `(m/s^{2})`, `(m^{1/2})`; nothing for a pure number or where it is not known.
         character(*), intent(in) :: unit
         character(:), allocatable :: text
         integer :: i, last
 
         text = ""
-        if (unit == "1" .or. unit == "") return
+        if (any(unit == ["1", " ", "?"])) return
         i = 1
         do while (i <= len_trim(unit))
             if (unit(i:i) == "^") then
                 last = i + verify(unit(i + 1:)//" ", "-"//digits) - 1
-                text = text//"^{"//unit(i + 1:last)//"}"
+                if (index(unit(i + 1:), "(") == 1 .and. index(unit, ")", back=.true.) > i) then
+                    last = i + index(unit(i + 1:), ")")
+                    text = text//"^{"//unit(i + 2:last - 1)//"}"
+                else
+                    text = text//"^{"//unit(i + 1:last)//"}"
+                end if
                 i = last + 1
             else
                 text = text//unit(i:i)
@@ -121,6 +126,6 @@ contains
         character(*), intent(in) :: text  !! any bytes
         logical :: yes
 
-        yes = verify(trim(text), letters//digits//" */.()^-") == 0
+        yes = verify(trim(text), letters//digits//" */.()^-") == 0 .or. text == "?"
     end function is_unit
 end module lagrangia_plot_label
