@@ -22,6 +22,7 @@ module lagrangia_period
         integer :: turns = 0          !! lower turning points met
         real(dp) :: first = 0.0_dp    !! time of the first, s
         real(dp) :: last = 0.0_dp     !! time of the latest, s
+        real(dp) :: shortest = 0.0_dp, longest = 0.0_dp  !! from one to the next, s
         logical :: resolved = .true.  !! the steps are short enough to follow the motion
         real(dp), private :: t = 0.0_dp
         real(dp), allocatable, private :: q(:), v(:)
@@ -32,6 +33,7 @@ module lagrangia_period
         procedure :: follow
         procedure :: follow_inside
         procedure :: period
+        procedure :: mean
     end type period_t
 
 contains
@@ -69,8 +71,17 @@ contains
         class(period_t), intent(inout) :: self
         real(dp), intent(in) :: t
 
+        select case (self%turns)
+        case (0)
+            self%first = t
+        case (1)
+            self%shortest = t - self%last
+            self%longest = self%shortest
+        case default
+            self%shortest = min(self%shortest, t - self%last)
+            self%longest = max(self%longest, t - self%last)
+        end select
         self%last = t
-        if (self%turns == 0) self%first = t
         self%turns = self%turns + 1
     end subroutine turn
 
@@ -142,14 +153,25 @@ contains
     end subroutine follow_inside
 
     pure function period(self) result(value)
-        !! The mean period, s; 0 where fewer than two turning points were met, or where the
-        !! steps are too long to tell (a period from too few of them would be a fiction).
+        !! The `mean`, s, where it is a period, that is, where all intervals between lower turning
+        !! points are as long to 1/100: not of a motion that beats, dies or never repeats. Else 0.
+        class(period_t), intent(in) :: self
+        real(dp) :: value
+        real(dp), parameter :: same = 1e-2_dp
+
+        value = 0.0_dp
+        if (self%longest - self%shortest <= same*self%longest) value = self%mean()
+    end function period
+
+    pure function mean(self) result(value)
+        !! The mean time between lower turning points, s; 0 where fewer than two were met, or where
+        !! the steps are too long to tell (a time from too few of them would be a fiction).
         class(period_t), intent(in) :: self
         real(dp) :: value
 
         value = 0.0_dp
         if (self%turns > 1 .and. self%resolved) value = (self%last - self%first)/(self%turns - 1)
-    end function period
+    end function mean
 
     pure function accounts(h, v0, a0, v1, a1) result(yes)
         !! Whether the accelerations at both ends account for the change of the velocity.

@@ -49,10 +49,12 @@ contains
         end if
         if (scene%period_of == "") return
         outcome%period = period%period()
+        outcome%turns = period%turns
+        if (period%mean() > 0.0_dp) outcome%intervals = [period%shortest, period%longest]
         if (.not. allocated(reference)) return
         outcome%exact_period = max(0.0_dp, reference%period)
         outcome%small_period = max(0.0_dp, reference%small_period)
-        measured = outcome%period
+        measured = period%mean()
         if (measured <= 0.0_dp) measured = ieee_value(measured, ieee_quiet_nan)
         if (reference%period > 0.0_dp) outcome%others = [outcome%others, &
             measure("period", abs(measured/reference%period - 1.0_dp))]

@@ -30,6 +30,8 @@ module lagrangia_outcome
         type(final_value_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
+        real(dp) :: intervals(2) = 0.0_dp           !! the shortest and longest of its mean, s
+        integer :: turns = 0                        !! lower turning points that are their ends
         real(dp) :: exact_period = 0.0_dp           !! by the closed form, s; 0 if there is none
         real(dp) :: small_period = 0.0_dp           !! \(2\pi/\omega\) of small swings, s; or 0
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0

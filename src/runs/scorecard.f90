@@ -103,8 +103,11 @@ contains
             call add("no steps: the motion by its closed form, "//fixed(self%seconds, 4)//" s")
         end if
         call add_rounding()
+        if (self%period <= 0.0_dp .and. self%intervals(2) > 0.0_dp) call add("no period: from "// &
+            "one lower turning point to the next it is "//short(self%intervals(1), 4)//" to "// &
+            short(self%intervals(2), 4)//" s")
         if (self%period > 0.0_dp) then
-            call add_number("period", self%period, "s", "measured")
+            call add_number("period", self%period, "s", "measured"//agreement())
             if (self%exact_period > 0.0_dp) call add_number("", self%exact_period, "s", &
                 "exact; they differ by "//difference("period"))
             if (self%small_period > 0.0_dp) call add_number("", self%small_period, "s", &
@@ -157,6 +160,18 @@ contains
             call append_word(lines, left("    "//name, 12)//left(number(value)//" "//unit, 20)// &
                              meaning)
         end subroutine add_number
+
+        function agreement() result(text)
+            ! Of the intervals that the period is the mean of, where it is worth a word.
+            character(:), allocatable :: text
+            real(dp) :: spread
+
+            text = ""
+            if (self%intervals(2) <= 0.0_dp) return
+            spread = 1.0_dp - self%intervals(1)/self%intervals(2)
+            if (self%turns == 2) text = ", of one interval"
+            if (spread > 1e-6_dp) text = "; its intervals differ by "//short(spread, 2)//" of it"
+        end function agreement
 
         function difference(name) result(text)
             character(*), intent(in) :: name
