@@ -973,6 +973,61 @@ done
 fake 'exit 3' png
 check "gnuplot: its status is told" eval '[ $status -eq 5 ] && one_line && grep -q "gnuplot ended with status 3 on " "$work/err" && [ ! -e "$work/drawn/pendulum.png" ] && leftovers'
 
+# what is said of a motion is true of it, however its formulas are written
+mkdir "$work/said"
+said() { # said FORMULAS: a mass in a plane, with V = k/2 x^2, and what is typed besides
+    printf "%s\n" "&scene system='plane', method='gauss16', tolerance=1e-10, duration=1, q=1,1, v=0, 0 /" \
+        "&lagrangian coordinates='x [m]','y [m]', parameters='m','k', T='m/2 (x_dot^2+y_dot^2)', V='k/2 (x^2 + y^2)', $1 /" "&plane m=1, k=2 /" >"$work/said/plane.nml"
+}
+for line in "x x_dot + y y_dot = 0|holonomic, scleronomic" "x_dot = y_dot|holonomic, scleronomic" "y x_dot = x y_dot|holonomic, scleronomic" "x_dot = k|holonomic, rheonomic" \
+    "x = y|holonomic, scleronomic" "x = k t|holonomic, rheonomic" "x_dot = t y_dot|nonholonomic, rheonomic" "x_dot = x y|nonholonomic, rheonomic"; do
+    IFS='|' read -r bond class <<<"$line"
+    said "constraint='$bond'"
+    sed -i "s/, v=0, 0//" "$work/said/plane.nml"
+    [ "$bond" = "x = k t" ] && sed -i "s/q=1,1/q=0,1/" "$work/said/plane.nml"
+    run describe "$work/said/plane.nml"
+    check "a constraint, $bond, is $class" grep -q "^  $class: " "$work/out"
+done
+check "the unit of a multiplier is not known" grep -q '^  lambda1  *\[?\] ' "$work/out"
+said "Q_x='k y_dot', Q_y='-k x_dot'"
+run describe "$work/said/plane.nml"
+check "forces that do no work leave the energy conserved" grep -qx 'energy (v dL/dv - L)' "$work/out"
+run run "$work/said/plane.nml" --set "scene%columns='t','energy_drift'" --output "$work/said"
+check "and it has a drift" [ $status -eq 0 ]
+said "Q_x='k y_dot - m x_dot/1e30', Q_y='-k x_dot'"
+run describe "$work/said/plane.nml"
+check "a friction beside them does work, however small it is" grep -qx 'energy (v dL/dv - L), not conserved' "$work/out"
+said "Q_x='-x_dot'"
+sed -i "s/V='k/V='sin(t) + k/" "$work/said/plane.nml"
+run describe "$work/said/plane.nml"
+check "the time in L that drops out of the equations of motion" grep -q '^  2 degrees of freedom; accelerations depend on positions and velocities, though the time is in L$' "$work/out"
+run modes "$work/said/plane.nml"
+check "and has no part in the modes" eval '[ $status -eq 0 ] && [ "$(grep -c "^2.0000000*  *1.4142135" "$work/out")" -eq 2 ]'
+sed -i "s/, T=.*/, L='exp(t) (m\/2 (x_dot^2+y_dot^2) - k\/2 (x^2 + y^2))' \//" "$work/said/plane.nml"
+run describe "$work/said/plane.nml"
+check "a factor of time before L is a drag" grep -q 'accelerations depend on positions and velocities, though the time is in L$' "$work/out"
+refuses 2 "M and K, the second derivatives of L, contain the time" modes "$work/said/plane.nml"
+sed -i "s/, L=.*/, L='-m k^2 sqrt(1 - (x_dot^2 + y_dot^2)\/k^2) - k\/2 (x^2 + y^2)' \//" "$work/said/plane.nml"
+run derive "$work/said/plane.nml"
+check "derive: the root of 1 is 1" eval '[ $status -eq 0 ] && grep -q "^   M11 = m$" "$work/out" && ! grep -q "sqrt(1)" "$work/out"'
+run derive double_pendulum --latex
+check "derive --latex: formulas in its remarks are formulas" eval '[ $status -eq 0 ] && grep -qF "about \$\theta_{1} = 0\$, \$\theta_{2} = 0\$: \$M \ddot{q} + K q = 0\$ with\par" "$work/out"'
+run derive cart_pendulum --latex
+check "derive --latex: of a cyclic coordinate" grep -qF '$x$ is cyclic: $\partial L/\partial\dot{x}$ is conserved\par' "$work/out"
+run describe atwood_lift
+check "a support that accelerates evenly is a constant force" eval 'grep -q "^  1 degree of freedom; accelerations depend on positions only, though the time is in L" "$work/out" && ! grep -q "and on the time" "$work/out"'
+refuses 2 "the equation of motion of this driven_pendulum contains the time" modes driven_pendulum
+for place in 1e12 1e14 1e16 1e300; do refuses 2 "not an equilibrium of pendulum" modes pendulum --at $place; done
+refuses 2 "; the nearest is 0.0" modes oscillator --at 1e-3
+said "equilibrium='1','1'"
+run modes "$work/said/plane.nml"
+check "an equilibrium that rounding has left is 0" grep -q 'about x = 0.0, y = 0.0' "$work/out"
+check "one that a scene states and is none is told" grep -q "the scene's equilibrium, x = 1.0, y = 1.0, is none" "$work/err"
+run run bouncing_ball --set scene%period_of=y --output "$work/said"
+check "flights that become shorter have no period" eval '[ $status -eq 0 ] && grep -q "^    no period: from one lower turning point to the next it is " "$work/out" && ! grep -q "measured" "$work/out"'
+run run pendulum --set scene%period_of=theta --output "$work/said"
+check "a swing has one" grep -q '^    period  *[0-9.]* s  *measured$' "$work/out"
+
 check "no line that is printed ends with a blank: $(sort -u "$work/blanks" 2>/dev/null | head -n 3 | tr '\n' ';')" [ ! -s "$work/blanks" ]
 
 echo "$count claims, $failures failed"

@@ -19,6 +19,7 @@ module lagrangia_describe
     use lagrangia_system, only: system_t
     use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: join, to_text, word_t
+    use lagrangia_time_in_motion, only: motion_contains_time
     implicit none (type, external)
     private
     public :: best_break, describe_command
@@ -340,7 +341,11 @@ contains
         else
             text = text//"positions only"
         end if
-        if (system%time_dependent) text = text//" and on the time"
+        if (motion_contains_time(system)) then
+            text = text//" and on the time"
+        else if (system%time_dependent .and. system%constraints == 0) then
+            text = text//", though the time is in L"
+        end if
         cyclic = [(i == system%cyclic, i=1, system%ndof)]
         select type (system)
         class is (lagrangian_system_t)

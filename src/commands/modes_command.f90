@@ -8,7 +8,7 @@ module lagrangia_modes_command
     use lagrangia_damped_rates, only: damped_rates
     use lagrangia_data_files, only: data_path
     use lagrangia_degrees, only: degrees_in
-    use lagrangia_description, only: description_t, figure_length
+    use lagrangia_description, only: description_t, figure_length, sizes_of_places
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_array, json_element, json_item, json_list, json_object, &
@@ -101,6 +101,12 @@ contains
                 exit
             end do
             return
+        end if
+        if (d%named_in_scene .and. allocated(d%equilibrium) .and. .not. line%has("at") .and. &
+            .not. line%has("quiet")) then
+            if (any(abs(modes%at - at) > 1e-9_dp*max(sizes_of_places(d), abs(at)))) call note( &
+                "the scene's equilibrium, "//point(d, at)//", is none; from there Newton's "// &
+                "method leads to "//point(d, modes%at))
         end if
         elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)

@@ -195,7 +195,9 @@ contains
 
         text = "L contains the time"
         if (system%constraints_work) text = "a constraint does work"
-        if (system%nonconservative) text = "generalised forces do work"
+        if (system%nonconservative .and. .not. system%workless) then
+            text = "generalised forces do work"
+        end if
     end function why_energy_changes
 
     pure subroutine refuse(name, system, d, all, error)

@@ -16,14 +16,14 @@ module lagrangia_equilibrium
     use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
-    public :: expand_at_rest, force_at_rest, settle, stiffness_beside
+    public :: expand_at_rest, expansion_moves, force_at_rest, settle, stiffness_beside
 
 contains
 
     subroutine settle(system, wanted, q, error)
         !! Newton's method from `q` to an equilibrium; where it leads to none, down to a minimum of
-        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to 1e-12 of
-        !! \(\max(s_i, |q_i|)\) with the typical sizes \(s_i\) of the system.
+        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to 1e-12 of the typical sizes
+        !! \(s_i\) of the system, or to rounding of \(q_i\) where that is more.
         class(system_t), intent(in) :: system             !! configured
         logical, intent(in) :: wanted                     !! `q` must be one
         real(dp), intent(inout) :: q(:)                   !! (n), from where to where
@@ -49,6 +49,8 @@ contains
             ! so far away the force may well be rounding: it fell without end
             found = found .and. all(abs(q) <= 1e8_dp*max(usual, abs(start)))
         end if
+        if (found) found = is_resolved(system, q)
+        if (found) call leave_noise_out(system, usual, q)
         if (found .and. .not. wanted) return
         near = "none is near"
         onto = 0.0_dp
@@ -58,11 +60,10 @@ contains
         if (allocated(error)) return
         worst = maxloc(abs(f), 1)
         if (found) then
-            if (maxval(abs(q - start)/usual) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)/usual))) then
+            if (all(abs(q - start) <= max(1e-12_dp*usual, 4.0_dp*spacing(start)))) then
                 q = start
                 return
             end if
-            where (abs(q) <= 4.0_dp*epsilon(q)*usual) q = 0.0_dp
             near = "the nearest is "//to_text(q(1))
             do i = 2, min(size(q), 6)
                 near = near//","//to_text(q(i))
@@ -76,6 +77,32 @@ contains
                   trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
                   trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
     end subroutine settle
+
+    pure function is_resolved(system, q) result(yes)
+        !! Are the numbers near `q` so close that K is the same there? Of an angle of 1e16 rad the
+        !! next number is 2 rad away, and where it rests cannot be said.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        logical :: yes
+        real(dp), parameter :: same = 1e-6_dp
+        real(dp), dimension(size(q), size(q)) :: m, k, other, g
+
+        call expand_at_rest(system, q, m, k, g)
+        call expand_at_rest(system, q + 4.0_dp*spacing(q), m, other, g)
+        yes = all(abs(other - k) <= same*maxval(abs(k)))
+    end function is_resolved
+
+    pure subroutine leave_noise_out(system, usual, q)
+        !! Coordinates that are rounding of their typical sizes are 0 if that leaves no more force.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: usual(:)
+        real(dp), intent(inout) :: q(:)
+        real(dp) :: round(size(q))
+
+        round = q
+        where (abs(q) <= 16.0_dp*epsilon(q)*usual) round = 0.0_dp
+        if (all(abs(force_at_rest(system, round)) <= abs(force_at_rest(system, q)))) q = round
+    end subroutine leave_noise_out
 
     subroutine approach(system, usual, q, found)
         !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(s_j, |q_j|)
@@ -258,7 +285,7 @@ contains
     end function terms_at_rest
 
     pure function force_at_rest(system, q) result(f)
-        !! \(\partial L/\partial q + Q\) at rest.
+        !! \(\partial L/\partial q - \partial^2L/\partial\dot q\,\partial t + Q\) at rest.
         class(system_t), intent(in) :: system  !! configured
         real(dp), intent(in) :: q(:)           !! (n)
         real(dp) :: f(size(q))                 !! N, or N m on an angle
@@ -271,6 +298,13 @@ contains
             l = system%lagrangian(tt, qq, vv)
             f(i) = l%d1
             qq(i)%d1 = 0.0_dp
+            if (.not. system%time_dependent) cycle
+            vv(i)%d1 = 1.0_dp
+            tt%d2 = 1.0_dp
+            l = system%lagrangian(tt, qq, vv)
+            f(i) = f(i) - l%d12
+            vv(i)%d1 = 0.0_dp
+            tt%d2 = 0.0_dp
         end do
         call add_generalised_forces(system, 0.0_dp, q, 0.0_dp*q, f)
     end function force_at_rest
@@ -306,6 +340,45 @@ contains
         end do
         g = mixed - transpose(mixed)
     end subroutine expand_at_rest
+
+    pure function expansion_moves(system, q) result(yes)
+        !! Do the second derivatives of L at rest contain the time, by more than rounding? Then
+        !! \(M\ddot q + G\dot q + Kq = 0\) is not what the motion obeys.
+        class(system_t), intent(in) :: system  !! configured
+        real(dp), intent(in) :: q(:)           !! (n)
+        logical :: yes
+        real(dp), parameter :: times(3) = [0.618_dp, 2.367_dp, 17.3_dp], rounding = 1e-11_dp
+        real(dp), dimension(2*size(q), 2*size(q)) :: first, now
+        integer :: i
+
+        yes = .false.
+        if (.not. system%time_dependent) return
+        first = second_derivatives(0.0_dp)
+        do i = 1, size(times)
+            now = second_derivatives(times(i))
+            yes = yes .or. any(abs(now - first) > rounding*max(maxval(abs(first)), &
+                                                               maxval(abs(now))))
+        end do
+    contains
+        pure function second_derivatives(t) result(h)
+            real(dp), intent(in) :: t
+            real(dp) :: h(2*size(q), 2*size(q))
+            type(hyperdual_t) :: state(2*size(q)), l
+            integer :: k, j
+
+            state%re = [q, 0.0_dp*q]
+            do k = 1, size(state)
+                do j = 1, size(state)
+                    state(k)%d1 = 1.0_dp
+                    state(j)%d2 = 1.0_dp
+                    l = system%lagrangian(hyperdual_t(re=t), state(:size(q)), state(size(q) + 1:))
+                    h(k, j) = l%d12
+                    state(k)%d1 = 0.0_dp
+                    state(j)%d2 = 0.0_dp
+                end do
+            end do
+        end function second_derivatives
+    end function expansion_moves
 
     pure subroutine stiffness_beside(system, q, stiffness)
         !! \(-\partial Q/\partial q\) at rest, of the generalised forces beside L.

@@ -8,7 +8,7 @@ module lagrangia_small_oscillations
     use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, out_of_range, residual_ratio
-    use lagrangia_equilibrium, only: expand_at_rest, force_at_rest, settle
+    use lagrangia_equilibrium, only: expand_at_rest, expansion_moves, force_at_rest, settle
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
@@ -22,6 +22,7 @@ module lagrangia_small_oscillations
     use lagrangia_system, only: system_t
     use lagrangia_tangent_space, only: check_integrable, find_tangent, tangent_t, within
     use lagrangia_text, only: to_text
+    use lagrangia_time_in_motion, only: motion_contains_time
     implicit none (type, external)
     private
     public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
@@ -68,6 +69,12 @@ contains
         modes%at = start
         call settle(system, wanted, modes%at, error)
         if (allocated(error)) return
+        if (expansion_moves(system, modes%at)) then
+            call fail(error, "M and K, the second derivatives of L, contain the time, which "// &
+                      "drops out of the equation of motion; an L of the same motion without "// &
+                      "it is needed")
+            return
+        end if
         call system%linearise(modes%at, modes%analytic)
         allocate (modes%mass(n, n), modes%stiffness(n, n), modes%gyroscopic(n, n))
         if (n <= largest_expansion .or. .not. allocated(modes%analytic%mass)) then
@@ -179,7 +186,7 @@ contains
 
     subroutine check_system(system, start, wanted, error)
         !! Refuse a system without a constant \(M\), \(G\) and \(K\): not configured, with
-        !! nonholonomic constraints, or with the time in L.
+        !! nonholonomic constraints, or with the time in its equation of motion.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: start(:)
         logical, intent(in) :: wanted   !! somebody has given it
@@ -202,15 +209,8 @@ contains
             if (allocated(error)) call error%add_context(trim(d%name))
         end if
         if (allocated(error)) return
-        if (system%time_dependent) then
-            if (system%nonconservative) then
-                call fail(error, "the equation of motion of this "//trim(d%name)//" contains "// &
-                          "the time: it has no equilibrium to oscillate about")
-            else
-                call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: "// &
-                          "it has no equilibrium to oscillate about")
-            end if
-        end if
+        if (motion_contains_time(system)) call fail(error, "the equation of motion of this "// &
+            trim(d%name)//" contains the time: there are no normal modes about a place at rest")
         if (allocated(error)) return
         if (any(.not. ieee_is_finite(start))) then
             call fail(error, "with these parameters the equilibrium of "//trim(d%name)// &

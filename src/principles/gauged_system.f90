@@ -153,6 +153,7 @@ contains
 
         call self%wrapped_system_t%adopt()
         self%time_dependent = .true.
+        self%timeless_lagrangian = .false.
         self%cyclic = 0
     end subroutine adopt
 

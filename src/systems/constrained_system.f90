@@ -3,7 +3,7 @@ module lagrangia_constrained_system
     !! \(\frac{d}{dt}\frac{\partial L}{\partial\dot q} - \frac{\partial L}{\partial q}
     !! = Q + \lambda A\), and accelerations and multipliers follow from these equations and
     !! \(\frac{d}{dt}(A\,\dot q + b) = 0\) (index 1). What drifts from the constraint is a column.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_canonical_form, only: simplified
     use lagrangia_description, only: conserved, constraint_length, description_t, &
                                      formula_length, quantity, quantity_t
@@ -11,9 +11,11 @@ module lagrangia_constrained_system
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_formula_text, only: formula_text
-    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian
+    use lagrangia_lagrangian_system, only: is_spare, near_states, trial_state
+    use lagrangia_pfaffian, only: pfaffian_t
     use lagrangia_system, only: each_lane
     use lagrangia_text, only: to_text
     use lagrangia_written_constraints, only: constraint_drift, constraint_row, is_in_velocities, &
@@ -30,6 +32,7 @@ module lagrangia_constrained_system
     type, extends(written_system_t) :: constrained_system_t
         !! Made by `new_constrained_system`.
         type(formula_program_t), allocatable :: links(:)   !! rows, one after the other; values; b
+        character(26) :: constraint_class = ""             !! `holonomic, scleronomic`
     contains
         procedure :: outline
         procedure :: prepare
@@ -40,6 +43,13 @@ module lagrangia_constrained_system
         procedure :: constraint_values
         procedure :: mass_matrix
     end type constrained_system_t
+
+    type, extends(pfaffian_t) :: links_t
+        !! The constraints of a system as one-forms \(A\,dq + b\,dt\).
+        class(constrained_system_t), allocatable :: of
+    contains
+        procedure :: forms
+    end type links_t
 
 contains
 
@@ -60,27 +70,23 @@ contains
             system%holonomic = [(.not. is_in_velocities(links(i), n), i=1, size(links))]
         end associate
         allocate (system%links(of_drift))
-        call state_constraints(expressions, system%holonomic, n, system%stated)
+        call state_constraints(expressions, size(system%holonomic), n, system%stated)
         call system%configure([(formulas%parameters(i)%value(1), i=1, &
                                 size(formulas%parameters))], error)
     end subroutine new_constrained_system
 
-    subroutine state_constraints(e, holonomic, n, d)
+    subroutine state_constraints(e, m, n, d)
         !! The equations of motion with multipliers; the constraints as they bind the velocities.
         type(written_expressions_t), intent(in) :: e
-        logical, intent(in) :: holonomic(:)
-        integer, intent(in) :: n
+        integer, intent(in) :: m, n
         type(description_t), intent(inout) :: d
         character(:), allocatable :: text
         integer :: i, k
 
         if (allocated(d%accelerations)) deallocate (d%accelerations)
         if (allocated(d%frequencies)) deallocate (d%frequencies)
-        d%constraint = trim(merge("holonomic   ", "nonholonomic", all(holonomic)))// &
-                       merge(", rheonomic  ", ", scleronomic", &
-                             any([(e%constraints(k)%depends_on(1), k=1, size(holonomic))]))
-        allocate (d%constraint_equations(size(holonomic)), d%notes(size(holonomic)))
-        do k = 1, size(holonomic)
+        allocate (d%constraint_equations(m), d%notes(m))
+        do k = 1, m
             do i = 1, n
                 text = formula_text(constraint_row(e%constraints(k), i, n, e%symbols), e%symbols)
                 if (text == "0" .or. .not. allocated(d%equations)) cycle
@@ -120,20 +126,22 @@ contains
         integer :: k, m, n
 
         call self%written_system_t%outline(d)
+        d%constraint = self%constraint_class
         m = self%constraints
         n = size(d%quantities)
         allocate (items(n + 2*m))
         items(:n) = d%quantities
         do k = 1, m
-            items(n + k) = quantity("lambda"//to_text(k), "1", "multiplier of constraint "// &
+            ! as the constraint is written, which nobody has told the units of
+            items(n + k) = quantity("lambda"//to_text(k), "?", "multiplier of constraint "// &
                                     to_text(k))
-            items(n + m + k) = conserved("constraint"//to_text(k), "1", "zero, it is kept", 1.0_dp)
+            items(n + m + k) = conserved("constraint"//to_text(k), "?", "zero, it is kept", 1.0_dp)
         end do
         call move_alloc(items, d%quantities)
     end subroutine outline
 
     pure subroutine prepare(self)
-        !! Compile the rows as well.
+        !! Compile the rows as well, and find out what constraints they are.
         class(constrained_system_t), intent(inout) :: self
         type(expression_t), allocatable :: rows(:)
         logical :: fixed(size(self%expressions%symbols%names))
@@ -162,7 +170,56 @@ contains
             end do
             call new_formula_program(self%links(of_drift), rows, 1 + 2*n, fixed, values)
         end associate
+        call classify(self)
     end subroutine prepare
+
+    pure subroutine classify(self)
+        !! Whether the constraints are holonomic, that is, whether there are \(f(t, q) = c\) that
+        !! say the same, is a matter of \(A\,dq + b\,dt\) (Frobenius), not of how they are written;
+        !! rheonomic are those that contain the time. Where no state of `trial_state` tells, it is
+        !! as they are written.
+        class(constrained_system_t), intent(inout) :: self
+        type(links_t) :: links
+        real(dp) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: a(self%constraints, 1 + self%ndof)
+        integer :: k, used
+        logical :: integrable, moves
+
+        links%coordinates = self%ndof
+        links%rows = self%constraints
+        allocate (links%of, source=self)
+        integrable = .true.
+        moves = .false.
+        used = 0
+        do k = 1, near_states
+            if (is_spare(k, used)) cycle
+            call trial_state(k, t, q, v)
+            call self%keep_constraints(t, q, v)
+            call links%forms(hyperdual([q, t]), a)
+            if (.not. all(ieee_is_finite(a%re))) cycle
+            if (.not. ieee_is_finite(links%frobenius([q, t]))) cycle
+            used = used + 1
+            integrable = integrable .and. links%integrable([q, t])
+            moves = moves .or. links%moves([q, t])
+        end do
+        if (used == 0) then
+            integrable = all(self%holonomic)
+            moves = any([(self%expressions%constraints(k)%depends_on(1), k=1, self%constraints)])
+        end if
+        self%constraint_class = trim(merge("holonomic   ", "nonholonomic", integrable))// &
+                                merge(", rheonomic  ", ", scleronomic", moves)
+    end subroutine classify
+
+    pure subroutine forms(self, x, a)
+        !! See `pfaffian_t`.
+        class(links_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: x(self%coordinates + 1)
+        type(hyperdual_t), intent(out) :: a(self%rows, self%coordinates + 1)
+
+        associate (n => self%coordinates)
+            call self%of%constraint_rows(x(n + 1), x(:n), a(:, :n), a(:, n + 1))
+        end associate
+    end subroutine forms
 
     pure subroutine accelerations(self, t, q, v, a)
         !! See `system_t`; NaN where nothing determines them.

@@ -113,9 +113,9 @@ contains
 
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L or a generalised force depends
-        !! on the time, whether there is such a force, and which coordinates are cyclic, from the
-        !! states of `trial_state` at which L is finite. Without any, L counts as dependent on
-        !! everything.
+        !! on the time, whether there is such a force and whether it works, and which coordinates
+        !! are cyclic, from the states of `trial_state` at which L is finite. Without any, L counts
+        !! as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b
@@ -127,6 +127,8 @@ contains
         self%velocity_forces = .false.
         self%time_dependent = .false.
         self%nonconservative = .true.
+        self%timeless_lagrangian = .true.
+        self%workless = .true.
         acted = .false.
         cyclic = .true.
         moves = .false.
@@ -142,7 +144,11 @@ contains
             vv%re = v
             call self%generalised_forces(tt, qq, vv, beside)
             acted = acted .or. any(abs(beside%re) > 0.0_dp)
+            ! false of NaN, too
+            self%workless = self%workless .and. abs(dot_product(beside%re, v)) <= &
+                            self%ndof*epsilon(t)*dot_product(abs(beside%re), abs(v))
             cyclic = cyclic .and. abs(beside%re) <= 0.0_dp
+            self%timeless_lagrangian = self%timeless_lagrangian .and. abs(terms%dl_dt) <= 0.0_dp
             self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp &
                                   .or. any(abs(beside%d1) > 0.0_dp)
             used = used + 1
@@ -155,6 +161,8 @@ contains
             self%velocity_forces = maxval(abs(a - b)) > 0.0_dp
         end do
         self%nonconservative = acted
+        self%workless = self%workless .and. used > 0
+        self%timeless_lagrangian = self%timeless_lagrangian .and. used > 0
         if (.not. moves) self%velocity_forces = .true.
         if (used == 0) then
             self%time_dependent = .true.

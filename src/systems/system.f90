@@ -24,13 +24,13 @@ module lagrangia_system
         integer :: ndof = 0                  !! number of coordinates
         logical :: velocity_forces = .true.  !! accelerations depend on the velocities
         logical :: time_dependent = .false.  !! L, a generalised force or a constraint has t in it
+        logical :: timeless_lagrangian = .false.  !! L does not, though `time_dependent` is true
         logical :: nonconservative = .false. !! there are `generalised_forces`
+        logical :: workless = .false.        !! they do no work, whatever the velocities are
         integer :: constraints = 0           !! rows of non-holonomic constraints
         logical :: is_projected = .false.    !! steps end with `end_step`, on them
-        logical :: constraints_work = .false.  !! one of \(A\dot q + b = 0\) has a \(b\) that is not
-        !! zero, so that its reaction does work
-        integer :: cyclic = 0                !! index of a coordinate that is neither in L nor has
-        !! a generalised force, so that its momentum is conserved; 0 if none
+        logical :: constraints_work = .false.  !! some \(b\) of \(A\dot q + b = 0\) is not 0
+        integer :: cyclic = 0  !! a coordinate that neither L nor a generalised force has; 0 if none
         integer :: contacts = 0              !! unilateral constraints: each has a gap and impacts
     contains
         procedure(describe_i), deferred :: describe
@@ -225,12 +225,12 @@ contains
     end subroutine no_generalised_forces
 
     pure function conserves_energy(self)
-        !! No time in L, no force beside it, and no constraint that does work.
+        !! No time in L, no force beside it and no constraint that does work.
         class(system_t), intent(in) :: self
         logical :: conserves_energy
 
-        conserves_energy = .not. (self%time_dependent .or. self%nonconservative &
-                                  .or. self%constraints_work)
+        conserves_energy = (self%timeless_lagrangian .or. .not. self%time_dependent) .and. &
+            (self%workless .or. .not. self%nonconservative) .and. .not. self%constraints_work
     end function conserves_energy
 
     pure subroutine each_lane(self, t, q, v, a)

@@ -45,7 +45,9 @@ contains
         self%ndof = self%inside%ndof
         self%velocity_forces = self%inside%velocity_forces
         self%time_dependent = self%inside%time_dependent
+        self%timeless_lagrangian = self%inside%timeless_lagrangian
         self%nonconservative = self%inside%nonconservative
+        self%workless = self%inside%workless
         self%constraints = self%inside%constraints
         self%constraints_work = self%inside%constraints_work
         self%cyclic = self%inside%cyclic

@@ -39,7 +39,8 @@ contains
                 right = whole(0)
             end if
             if (.not. allocated(error)) then
-                constraints(i) = left - right
+                constraints(i) = left
+                if (.not. is_zero(right)) constraints(i) = left - right
                 call check(constraints(i), n, symbols, error)
             end if
             if (.not. allocated(error) .and. i == n) call fail(error, "as many constraints as "// &

@@ -20,7 +20,7 @@ module lagrangia_written_system
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_motion, only: derive_motion, invert_momenta, leave_out_what_cancels, &
                                         solve_motion, written_motion_t
-    use lagrangia_written_quantities, only: find_conserved
+    use lagrangia_written_quantities, only: find_conserved, is_workless
     implicit none (type, external)
     private
     public :: is_positive, new_written_system, of_momentum, written_system_t
@@ -158,8 +158,7 @@ contains
 
         k = 1 + 2*self%ndof
         n = self%ndof
-        fixed = .true.
-        fixed(:k) = .false.
+        fixed = [(i > k, i=1, size(fixed))]
         values(:k) = 0.0_dp
         values(k + 1:) = self%p
         associate (e => self%expressions, motion => self%motion)
@@ -199,6 +198,8 @@ contains
         class(written_system_t), intent(inout) :: self
 
         call find_structure(self)
+        if (self%workless) self%workless = is_workless(self, self%expressions%forces, &
+                                                       self%expressions%symbols)
         call find_conserved(self, self%programs(of_quantity), self%is_conserved)
     end subroutine find_all_structure
 

@@ -15,6 +15,8 @@ module lagrangia_pfaffian
     private
     public :: pfaffian_t
 
+    real(dp), parameter :: noise = 1e-12_dp  !! of elimination, relative
+
     type, abstract :: pfaffian_t
         integer :: coordinates = 0   !! without the time
         integer :: rows = 0
@@ -24,7 +26,9 @@ module lagrangia_pfaffian
         procedure :: dimension => dimension_of
         procedure :: curl
         procedure :: frobenius
+        procedure :: integrable
         procedure :: motion
+        procedure :: moves
         procedure :: growth
     end type pfaffian_t
 
@@ -92,28 +96,72 @@ contains
         !! where they can be integrated, with an integrating factor or without.
         class(pfaffian_t), intent(in) :: self
         real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
-        real(dp) :: largest, slopes(self%rows, self%dimension())
+        real(dp) :: largest
+        real(dp), dimension(self%rows, self%dimension() - self%rows, &
+                            self%dimension() - self%rows) :: da, terms
+
+        call on_the_free(self, x, da, terms)
+        largest = max(0.0_dp, maxval(abs(da)))
+        if (any(.not. abs(da) <= huge(largest))) largest = sum(abs(da))  ! NaN, too
+    end function frobenius
+
+    pure function integrable(self, x) result(yes)
+        !! Is each \(da(X, Y)\) of `frobenius` rounding beside the terms that add up to it?
+        !! NaN is none.
+        class(pfaffian_t), intent(in) :: self
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
+        logical :: yes
+        real(dp), dimension(self%rows, self%dimension() - self%rows, &
+                            self%dimension() - self%rows) :: da, terms
+
+        call on_the_free(self, x, da, terms)
+        yes = all(abs(da) <= noise*terms)
+    end function integrable
+
+    pure function moves(self, x) result(yes)
+        !! Do the constraints contain the time: a \(b\), or directions that they allow and that
+        !! turn? A factor before a whole constraint is none.
+        class(pfaffian_t), intent(in) :: self
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
+        logical :: yes
         type(hyperdual_t) :: free(self%dimension(), self%dimension() - self%rows)
         type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
-        real(dp) :: directions(size(free, 1), size(free, 2))
-        real(dp) :: da(self%rows, size(free, 2), size(free, 2))
+
+        xx = hyperdual(x)
+        xx(size(xx))%d1 = 1.0_dp
+        call self%forms(xx, a)
+        call kernel(self, xx, free)
+        yes = any(abs(a(:, size(xx))%re) > 0.0_dp) .or. any(abs(free%d1) > noise)
+    end function moves
+
+    pure subroutine on_the_free(self, x, da, terms)
+        !! \(da(X, Y)\) of each constraint on the directions that all allow, and the sum of the
+        !! sizes of its terms.
+        class(pfaffian_t), intent(in) :: self
+        real(dp), intent(in) :: x(:)
+        real(dp), intent(out) :: da(:, :, :), terms(:, :, :)
+        real(dp) :: slopes(self%rows, self%dimension(), self%dimension())
+        type(hyperdual_t) :: free(self%dimension(), self%dimension() - self%rows)
+        type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
+        real(dp) :: z(size(free, 1), size(free, 2)), product(size(free, 2), size(free, 2))
         integer :: i, n
 
         n = self%dimension()
         call kernel(self, hyperdual(x), free)
-        directions = free%re
-        do i = 1, size(free, 2)
+        z = free%re
+        do i = 1, n
             xx = hyperdual(x)
-            xx(:n)%d1 = directions(:, i)
+            xx(i)%d1 = 1.0_dp
             call self%forms(xx, a)
-            slopes = a(:, :n)%d1
-            da(:, i, :) = matmul(slopes, directions)
+            slopes(:, i, :) = a(:, :n)%d1
         end do
-        largest = 0.0_dp
         do i = 1, self%rows
-            largest = max(largest, maxval(abs(da(i, :, :) - transpose(da(i, :, :)))))
+            product = matmul(transpose(z), matmul(slopes(i, :, :), z))
+            da(i, :, :) = product - transpose(product)
+            product = matmul(transpose(abs(z)), matmul(abs(slopes(i, :, :)), abs(z)))
+            terms(i, :, :) = product + transpose(product)
         end do
-    end function frobenius
+    end subroutine on_the_free
 
     pure subroutine kernel(self, x, free)
         !! Vector fields that span what the constraints allow, a column each: Gauss-Jordan
