@@ -393,8 +393,8 @@ contains
             self%equations(i) = equation
             if (force%terms == 0 .and. forces(i)%terms == 0 .and. self%constraints == 0) then
                 call self%add_words(q//" is cyclic: dL/d"//q//"_dot is conserved", &
-                                    "$"//latex_name(q)//"$ is cyclic: $\partial L/\partial\dot{"// &
-                                    latex_name(q)//"}$ is conserved")
+                                    "$"//latex_name(q)//"$ is cyclic: $\partial L/\partial"// &
+                                    latex_name(q//"_dot")//"$ is conserved")
             end if
         end do
     end subroutine add_equations
