@@ -291,8 +291,8 @@ contains
         if (allocated(error)) return
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
         call assertTrue(allocated(error), message="cos(x) = 3")
-        if (allocated(error)) call assertTrue(index(error%message, "is no number: a sine or "// &
-            "cosine beyond 1") > 0, message=error%message)
+        if (allocated(error)) call assertTrue(index(error%message, "is no number: a root of "// &
+            "a negative number, a sine or cosine beyond 1") > 0, message=error%message)
     end subroutine no_such_angle
 
     subroutine points_without_masses()

@@ -41,7 +41,8 @@ module test_docs_formulae
         "dT/dx = -k x", "E = k A^2/2", &
         "x = x_0 + v_0 t + a t^2/2", "theta_eq = pi", "V_eff = p_phi^2/(2 m r^2) + V", &
         "v^2 = v_0^2 - 2 g y", "i_roll = m r^2/2", "l1 = l2", "m1 = m2 = m", "I = M R^2/2", &
-        "omega_1 = ...", "tension = m g", "theta = pi + u", "p_x = 0"]
+        "omega_1 = ...", "tension = m g", "theta = pi + u", "p_x = 0", &
+        "x x_dot + y y_dot = 0"]
     !! spans with '=' that state nothing about a system
 
     character(*), parameter :: spherical = "&scene system = 'spherical', dt = 0.1, "// &

@@ -201,8 +201,8 @@ contains
 
     subroutine columns_count_characters()
         !! Behind Greek letters on the left side as well; a line without '='.
-        call unreadable("theta = -g/l sin theta", "column 18: 'sin' needs")
-        call unreadable(utf8(952)//utf8(776)//" = -g/l sin theta", "column 15: 'sin' needs")
+        call unreadable("theta = -g/l sin theta l", "column 18: 'sin' needs")
+        call unreadable(utf8(952)//utf8(776)//" = -g/l sin theta l", "column 15: 'sin' needs")
         call unreadable(utf8(952)//" =", "column 4: one side of '=' is empty")
         call unreadable(utf8(952)//utf8(776)//" + g/l sin("//utf8(952)//")", "column 16: no '='; ")
         call unreadable("sin(theta) "//utf8(8800)//" theta", "column 12: U+2260 is no equality")

@@ -94,7 +94,7 @@ contains
                   "l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D) + l2 omega_2^2 sin(theta2) = 0", &
                   is_right, "")
         call says("pendulum", "omega0^2 = g/l", is_right, "")
-        call says("pendulum", "omega_0 = sqrt(l/g)", is_wrong, "exponent -1")
+        call says("pendulum", "omega_0 = sqrt(l/g)", is_wrong, "'l/g' must be 'g/l'")
         call says("rotating_hoop", "omega_0^2 = g/r", is_definition, "")
         call says("pendulum", "theta_ddot = -omega_0^2 sin(theta)", is_right, "")
     end subroutine frequencies_by_name

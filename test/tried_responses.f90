@@ -167,7 +167,7 @@ contains
         call wrong("double_pendulum", "l2 theta2_ddot + l1 theta1_ddot sin(theta1 - theta2) "// &
                    "+ l1 theta1_dot^2 sin(theta1 - theta2) + g sin(theta2) = 0")
         call wrong("oscillator", "x = cos(t)")
-        call unreadable("pendulum", "sin theta = 1")
+        call unreadable("pendulum", "m g sin theta l = 1")
         call unreadable("pendulum", "theta_ddot == 3")
         call unreadable("pendulum", "theta_ddot =")
         call unreadable("pendulum", "g = 9.81")

@@ -50,6 +50,8 @@ contains
         attempt%example = ""
         call judge_pair(left, right, chained .or. is_rate(left, right, text), samples, library, &
                         explain .and. .not. small, judgement)
+        if (judgement%is_unexplained .and. is_rate(left, right, text)) call judge_pair( &
+            left, right, chained, samples, library, explain .and. .not. small, judgement)
         if (judgement%verdict == is_right) return
         do i = 1, tensions(samples)
             call read_as_tension(left, right, samples, i, one, other)
@@ -215,8 +217,6 @@ contains
             first = merge(left%count + 1, 1, chained)
             associate (residual => judgement%residual, explanation => judgement%explanation)
                 call explain_slip(residual, first, samples, values, library, explanation)
-                if (explanation%is_empty() .and. first > 1) call explain_slip( &
-                    residual, 1, samples, values, library, explanation)
                 if (explanation%is_empty()) call explain_squares(left, right, samples, library, &
                                                                  explanation)
                 if (explanation%is_empty() .and. is_energy(left, samples)) then

@@ -42,6 +42,7 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
+        type(judgement_t) :: nearby
         character(:), allocatable :: name, said, side, side_and, text
         integer :: begun, first, next, last
         logical, allocatable :: nearly(:)
@@ -121,8 +122,16 @@ contains
                 if (of_value .and. index(text(first:), ".") == 0) said = trim(said)//"."  ! 24.
                 call judge_forms(left, right, said, chained, small, samples, library, explain, &
                                  judgement)
-                if (of_value .and. judgement%verdict == is_wrong) call ask_for_digits( &
-                    text(first:next - 1), judgement)
+                if (of_value .and. judgement%verdict == is_wrong) then  ! cos(theta) ~ 1
+                    nearby%verdict = is_right
+                    nearby%remark = ""
+                    nearby%example = ""
+                    call judge_forms(left, right, said, chained, .true., samples, library, &
+                                     .false., nearby)
+                    if (nearby%verdict == is_right) judgement = nearby
+                    if (nearby%verdict /= is_right) call ask_for_digits(text(first:next - 1), &
+                                                                        judgement)
+                end if
                 if (constancy .and. explain .and. judgement%verdict == is_wrong) then
                     call explain_change(text(begun:first - 2), samples, judgement%explanation, &
                                         judgement%remark)
