@@ -114,7 +114,7 @@ contains
         type(error_t), intent(in) :: error              !! column and remedy
         type(samples_t), intent(in) :: samples          !! know the names
         type(judgement_t), intent(inout) :: judgement   !! gets it
-        character(*), parameter :: unknown = "unknown name '"
+        character(*), parameter :: unknown = "unknown name '", near = "; did you mean '"
         character(:), allocatable :: name
         integer :: first, length
 
@@ -127,8 +127,12 @@ contains
         name = error%message(first:first + length - 1)
         if (index(name, "_0", back=.true.) == len(name) - 1) then
             name = name(:len(name) - 2)//"_eq"  ! of theta_0
-            if (samples%symbols%find(name) > 0) judgement%remark = judgement%remark// &
-                "; the place of an equilibrium is "//quoted(name)
+            if (samples%symbols%find(name) > 0) then
+                first = index(judgement%remark//near, near)
+                judgement%remark = judgement%remark(:first - 1)// &
+                                   "; the place of an equilibrium is "//quoted(name)
+                return
+            end if
         end if
         if (length > 3) return
         judgement%remark = judgement%remark//"; if it is a constant, write a line 'constant: "// &
