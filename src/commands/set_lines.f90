@@ -217,6 +217,7 @@ contains
                 if (element > p%count) call fail(error, trim(p%name)//" has "// &
                     to_text(p%count)//" values, "//trim(p%name)//"(1) to "//trim(p%name)//"("// &
                     to_text(p%count)//")")
+                if (allocated(error)) return
                 if (p%count == 1 .or. element > 0) call read_value(value, d, trim(p%unit), error)
             end associate
             if (allocated(error)) return
