@@ -1,13 +1,14 @@
 module lagrangia_set_lines
-    !! Lines `set:` of a sheet: values as formulas of numbers, parameters by their letters. A line
-    !! holds for those behind it; one that cannot be is a statement that nobody can read.
+    !! Lines `set:` of a sheet: values as formulas of numbers, parameters by their letters; a value
+    !! in other parameters is a condition. A line holds for those behind it; one that cannot be is a
+    !! statement that nobody can read, and no line behind it is called wrong.
     use lagrangia_constant_formula, only: read_constant
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_grading, only: grade, grade_t
-    use lagrangia_homework, only: homework_t, refuse_setting
-    use lagrangia_judgement, only: is_consequence, is_wrong
+    use lagrangia_homework, only: homework_t, state_setting
+    use lagrangia_judgement, only: is_consequence, is_unreadable, is_wrong
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
     use lagrangia_parameter_choice, only: find_parameter, occurs
@@ -18,6 +19,7 @@ module lagrangia_set_lines
     private
     public :: grade_with_settings
 
+    character(*), parameter :: in_parameters = "in parameters"  !! a value: the line is a condition
     character(*), parameter :: of_number = "0123456789+-.eEdD ,"
     character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
@@ -63,7 +65,29 @@ contains
             call move_alloc(attempt%determined, result%determined)
             result%equations = attempt%equations
         end do
+        call spare_lines(homework, result)
     end subroutine grade_with_settings
+
+    pure subroutine spare_lines(homework, result)
+        !! What is wrong without a line `set:` that cannot be read may be right with it.
+        type(homework_t), intent(in) :: homework
+        type(grade_t), intent(inout) :: result
+        integer :: k, refused
+
+        refused = 0
+        do k = 1, size(homework%statements)
+            if (homework%statements(k)%refusal /= "") refused = homework%statements(k)%line
+            if (refused == 0) cycle
+            associate (judgement => result%of(k))
+                if (judgement%verdict /= is_wrong .and. judgement%verdict /= is_consequence) cycle
+                judgement%verdict = is_unreadable
+                judgement%remark = "wrong without line "//to_text(refused)// &
+                                   ", which cannot be read; with it perhaps not"
+                judgement%example = ""
+                if (allocated(judgement%because)) deallocate (judgement%because)
+            end associate
+        end do
+    end subroutine spare_lines
 
     pure function settings_before(homework) result(number)
         !! How many settings stand before each statement.
@@ -145,13 +169,17 @@ contains
                 i = i + 1
                 cycle
             end if
+            if (error%message == in_parameters) then
+                call state_setting(homework, i, "")
+                cycle
+            end if
             n = index(error%message, "&"//trim(d%name)//": ")
             if (index(error%message, option) == 1 .and. n > 0) error%message = &
                 error%message(n + len_trim(d%name) + 3:)
             n = index(error%message, "another --set")
             if (n > 0) error%message = error%message(:n - 1)//"another line 'set:'"// &
                                        error%message(n + 13:)
-            call refuse_setting(homework, i, error%message//&
+            call state_setting(homework, i, error%message//&
                                 "; the lines behind are judged without it")
         end do
     end subroutine read_settings
@@ -251,8 +279,7 @@ contains
             end if
         end if
         if (speaks_of_parameter()) then
-            call fail(error, "a line 'set:' gives a number; a formula of other parameters "// &
-                      "stands in a line of its own without 'set:', for the lines behind it")
+            call fail(error, in_parameters)
             return
         end if
         call read_constant(value, number, error)

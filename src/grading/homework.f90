@@ -23,7 +23,7 @@ module lagrangia_homework
     implicit none (type, external)
     private
     public :: homework_t, statement_t
-    public :: parse_homework, read_homework, refuse_setting
+    public :: parse_homework, read_homework, state_setting
 
     integer, parameter :: statement_length = 10000  !! bytes of one statement at most
     integer, parameter :: most_statements = 1000    !! of one file
@@ -422,22 +422,22 @@ contains
         call move_alloc(longer, homework%statements)
     end subroutine insert_statement
 
-    subroutine refuse_setting(homework, which, why)
-        !! What a line `set:` says cannot be: it becomes a statement that nobody can read.
+    subroutine state_setting(homework, which, why)
+        !! What a line `set:` says becomes a statement: a condition, or one that nobody can read.
         type(homework_t), intent(inout) :: homework  !! loses the setting
         integer, intent(in) :: which                 !! its place among all settings
-        character(*), intent(in) :: why              !! the reason
+        character(*), intent(in) :: why              !! it cannot be; or ""
         type(word_t), allocatable :: settings(:)
         integer :: equals, i, line, place
 
         line = homework%setting_lines(which)
         associate (text => homework%settings(which)%text)
             equals = index(text, "=")
-            call insert_statement(homework, "set: "//text(:equals - 1)//" = "//text(equals + 1:), &
-                                  line)
+            call insert_statement(homework, trim(text(:equals - 1))//" = "//text(equals + 1:), line)
         end associate
         place = count(homework%statements%line <= line)
         homework%statements(place)%refusal = why
+        if (why /= "") homework%statements(place)%text = "set: "//homework%statements(place)%text
         allocate (settings(0))
         do i = 1, size(homework%settings)
             if (i /= which) call append_word(settings, homework%settings(i)%text)
@@ -445,5 +445,5 @@ contains
         call move_alloc(settings, homework%settings)
         homework%setting_lines = [homework%setting_lines(:which - 1), &
                                   homework%setting_lines(which + 1:)]
-    end subroutine refuse_setting
+    end subroutine state_setting
 end module lagrangia_homework
