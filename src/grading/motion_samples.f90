@@ -211,12 +211,14 @@ contains
         type(error_t), allocatable :: refusal
         real(dp), dimension(size(samples%role)) :: values, noise
         real(dp), allocatable :: parameters(:)
+        real(dp) :: mass(system%ndof, system%ndof)
         integer :: i, k
 
         call put_values(samples, system, d, row, t, q, v, error)
         if (allocated(error)) return
         values = samples%values(row, :)
         if (.not. any(abs(values) > 0.0_dp .and. abs(values) < small)) return
+        if (allocated(samples%mass)) mass = samples%mass(:, :, row)
         noise = 0.0_dp
         call system%describe(now)
         allocate (parameters, source=default_values(now))
@@ -230,6 +232,7 @@ contains
         end do
         where (abs(values) < small .and. abs(values) <= 64*noise) values = 0.0_dp
         samples%values(row, :) = values
+        if (allocated(samples%mass)) samples%mass(:, :, row) = mass
     end subroutine put_state
 
     subroutine put_values(samples, system, d, row, t, q, v, error)
