@@ -3,8 +3,9 @@ module test_formula_program
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: apply, constant, expression_t, f_sin, operator(*), &
-                                    operator(**), operator(+), operator(-), operator(/), symbol
+    use lagrangia_expression, only: apply, constant, expression_t, f_cos, f_sin, function_names, &
+                                    operator(*), operator(**), operator(+), operator(-), &
+                                    operator(/), symbol
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_formula_text, only: formula_text
@@ -32,6 +33,8 @@ contains
                                       programs_compute_their_formulas, setUp=restart_random))
         call suite%addTest(TestMethod("printed_formulas_are_the_same_formulas", &
                                       printed_formulas_are_the_same_formulas, setUp=restart_random))
+        call suite%addTest(TestMethod("lanes_have_the_digits_of_one_state", &
+                                      lanes_have_the_digits_of_one_state, setUp=restart_random))
         call suite%addTest(TestMethod("many_registers_are_as_good", many_registers_are_as_good))
         call suite%addTest(TestMethod("powers_of_two_and_signs_meet", &
                                       powers_of_two_and_signs_meet, setUp=restart_random))
@@ -160,6 +163,33 @@ contains
         end do
         call sum_and_product(400)
     end subroutine many_registers_are_as_good
+
+    subroutine lanes_have_the_digits_of_one_state()
+        !! Of each function but sine and cosine, which differ in the last bit by what
+        !! `lagrangia_sine_cosine` says; and of a power.
+        type(expression_t) :: e(size(function_names) + 1), x
+        type(formula_program_t) :: program
+        real(dp) :: many(lanes, 1), one(size(e)), all(lanes, size(e))
+        integer :: i, k, lane
+
+        x = symbol(1)
+        do k = 1, size(function_names)
+            e(k) = apply(k, x)
+        end do
+        e(size(e)) = x**constant(1.7_dp)
+        call new_formula_program(program, e, 1)
+        do i = 1, 2000
+            do lane = 1, lanes
+                many(lane, 1) = uniform(0.0_dp, 3.0_dp)
+            end do
+            call program%evaluate(many, all)
+            call program%evaluate(many(lanes, :), one)
+            do k = 1, size(e)
+                if (k == f_sin .or. k == f_cos) cycle
+                call assertEqual(one(k), all(lanes, k), 0.0_dp, shown(e(k)))
+            end do
+        end do
+    end subroutine lanes_have_the_digits_of_one_state
 
     subroutine sum_and_product(terms)
         !! Of so many sines.

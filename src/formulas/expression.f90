@@ -15,7 +15,7 @@ module lagrangia_expression
               kind_power, kind_negation, kind_function
     public :: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sgn, f_sin, f_sinh, f_sqrt, f_tan, &
         f_tanh
-    public :: function_names, function_value, is_function_name
+    public :: function_names, function_value, is_function_name, real_power
 
     integer, parameter :: kind_number = 0, kind_symbol = 1
     integer, parameter :: kind_sum = 2, kind_difference = 3, kind_product = 4, kind_quotient = 5
@@ -147,6 +147,14 @@ contains
         case default; y = tanh(x)
         end select
     end function function_value
+
+    elemental real(dp) function real_power(x, exponent)
+        !! A power, as it is computed when a formula is evaluated.
+        real(dp), intent(in) :: x         !! any; negative, NaN unless the exponent is whole
+        real(dp), intent(in) :: exponent  !! any
+
+        real_power = x**exponent
+    end function real_power
 
     pure function add(a, b) result(e)
         type(expression_t), intent(in) :: a, b

@@ -62,7 +62,6 @@ contains
         !! parts that the scene draws it by; none: the system's own
         character(:), allocatable, intent(out), optional :: label  !! the scene's name, or `name`
         character(:), allocatable :: path, text
-        type(description_t) :: d
         type(namelist_t) :: tree
         type(scene_t) :: scene
         integer :: i
@@ -83,9 +82,7 @@ contains
                                                   file_advice(name)
             return
         end if
-        call system%describe(d)
-        text = "&scene system = '"//name//"' /"
-        if (size(d%parameters) > 0) text = text//" &"//name//" /"  ! for remedies that name it
+        text = "&scene system = '"//name//"' / &"//name//" /"  ! a group for remedies that name it
         call parse_namelist(text, name, tree, error)
         if (allocated(error)) return
         do i = 1, size(overrides)
