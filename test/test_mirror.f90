@@ -17,6 +17,7 @@ module test_mirror
     public :: mirror_suite
 
     type, extends(steep_wall_t) :: two_walls_t
+        real(dp) :: place = 0.5_dp  !! of the wall, m
     contains
         procedure :: accelerations => between_walls
     end type two_walls_t
@@ -78,29 +79,33 @@ contains
     end subroutine steps_by_tolerance
 
     subroutine steps_over_a_kink()
-        !! Walls on both sides, where the force has a kink that the methods must notice.
+        !! Walls on both sides, where the force has a kink that the methods must notice, in all
+        !! places of a step: also behind the last point at which the force is looked at.
         type(two_walls_t) :: system
         class(dense_integrator_t), allocatable :: method, other
         type(error_t), allocatable :: error
-        integer :: k
+        integer :: i, k
 
         call system%configure([1.0_dp], error)
-        do k = 1, 2
-            call nth_adaptive(k, method)
-            call nth_adaptive(k, other)
-            method%tolerance = 1e-9_dp
-            other%tolerance = 1e-9_dp
-            call step_both(system, method, other, "two walls by "//trim(method%name))
+        do i = 1, 60
+            system%place = 0.5_dp + 0.01_dp*i
+            do k = 1, 2
+                call nth_adaptive(k, method)
+                call nth_adaptive(k, other)
+                method%tolerance = 1e-9_dp
+                other%tolerance = 1e-9_dp
+                call step_both(system, method, other, "two walls by "//trim(method%name))
+            end do
         end do
     end subroutine steps_over_a_kink
 
     pure subroutine between_walls(self, t, q, v, a)
-        !! $$ \ddot x = -x - 3\,\mathrm{sgn}(x)\max(0, |x| - 1/2) $$
+        !! $$ \ddot x = -x - 3\,\mathrm{sgn}(x)\max(0, |x| - p) $$
         class(two_walls_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
 
-        a(1) = -q(1) - sign(3.0_dp*max(0.0_dp, abs(q(1)) - 0.5_dp), q(1))
+        a(1) = -q(1) - sign(3.0_dp*max(0.0_dp, abs(q(1)) - self%place), q(1))
     end subroutine between_walls
 
     subroutine step_both(system, method, other, what)
