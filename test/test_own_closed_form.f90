@@ -8,8 +8,8 @@ module test_own_closed_form
     use lagrangia_outcome, only: from_closed_form, from_steps, outcome_t
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
-    use own_closed_forms, only: own_drag_t, own_spring_t, undefined, wrong_motion, wrong_size, &
-                                wrong_start
+    use own_closed_forms, only: own_drag_t, own_plane_t, own_spring_t, undefined, wrong_motion, &
+                                wrong_size, wrong_start
     use own_reductions, only: own_trough_t
     use scene_runs, only: perform
     implicit none (type, external)
@@ -27,6 +27,8 @@ contains
 
         suite = TestSuite("own_closed_form")
         call suite%addTest(TestMethod("wrong_ones_are_refused", wrong_ones_are_refused))
+        call suite%addTest(TestMethod("one_wrong_coordinate_is_enough", &
+                                      one_wrong_coordinate_is_enough))
         call suite%addTest(TestMethod("none_is_needed", none_is_needed))
         call suite%addTest(TestMethod("it_is_the_measure_of_errors", it_is_the_measure_of_errors))
         call suite%addTest(TestMethod("auto_takes_it", auto_takes_it))
@@ -64,6 +66,19 @@ contains
         call refused(own_drag_t(), "system 'own_drag': "//disobeys)
         call assertFalse(any(system_names() == "own_spring"), "nobody joined")
     end subroutine wrong_ones_are_refused
+
+    subroutine one_wrong_coordinate_is_enough()
+        !! The other is right.
+        integer :: k
+
+        do k = 1, 2
+            call refused(own_plane_t(wrong=k, kind=wrong_start), &
+                         "system 'own_plane': its closed form has the motion from t = ")
+            call refused(own_plane_t(wrong=k, kind=wrong_motion), &
+                         "system 'own_plane': its closed form does not obey the equations of ")
+        end do
+        call assertFalse(any(system_names() == "own_plane"), "nobody joined")
+    end subroutine one_wrong_coordinate_is_enough
 
     subroutine none_is_needed()
         !! A binding that leaves `reference` unallocated is like none.
