@@ -251,9 +251,9 @@ contains
     end subroutine evaluate_large_lanes
 
     pure subroutine work_lanes(code, values, r, results)
-        !! The instructions, on doubles in lanes. Functions and powers are called, one lane after the
-        !! other: within a loop gfortran at `-O2` takes libmvec's, which err by up to 4 ulp, so that
-        !! the digits would depend on the flags.
+        !! The instructions, on doubles in lanes. Functions and powers are called, a lane at a time:
+        !! within a loop gfortran at `-O2` takes libmvec's, which err by up to 4 ulp, so that the
+        !! digits would depend on the flags.
         type(code_t), intent(in) :: code
         real(dp), intent(in) :: values(lanes, code%inputs)
         real(dp), intent(inout) :: r(lanes, code%registers)
