@@ -83,6 +83,19 @@ for writer in "principle least-time:principle_least_time" "modes double_pendulum
     check "${writer%%:*}: the script is a link to the data" eval '[ $status -eq 2 ] && one_line && [ "$(cat o/$name.dat)" = old ]'
     rm o/*
 done
+# The scene that any other command reads is none of the files that it writes
+for kind in -s ""; do
+    for words in "modes@g_mode_1.dat" "modes@g_mode_1.gp" "modes --plot@g_modes.dat" "modes --animate@g_modes.html" \
+        "bench precision steps --quick --problems P1 --methods rk4 --systems@bench.dat" "report@report.html" "report@g.svg" \
+        "compare --methods rk4,gauss16@g_rk4.dat" "compare --methods rk4,gauss16@g_methods.gp" \
+        "sweep --over q=1:2:2 --keep theta@g_sweep.dat" "sweep --over q=1:2:2 --keep theta@g_sweep.dat.part" \
+        "sweep --over q=1:2:2 --keep theta --resume@g_sweep.dat.part"; do
+        ln $kind "$work/g.nml" "o/${words#*@}"
+        refused "${words%@*}: the scene is linked (ln $kind) as ${words#*@}" ${words%@*} ./g.nml --output o
+        check "${words%@*}: the line names both" grep -q "'o/${words#*@}'.* and the scene './g.nml' are one file: one would be lost" err
+        rm o/*
+    done
+done
 # and these are two files
 long=$(printf 'n%.0s' $(seq 40))
 scene "${long}x.nml"
@@ -183,7 +196,9 @@ fi
 # What is much, or more than there is room for, is said before
 run modes hanging_chain --set hanging_chain%n=50 --output few
 check "2 MB of modes need no word" eval '[ $status -eq 0 ] && [ ! -s err ]'
-(ulimit -f 0; timeout 5 "$program" modes hanging_chain --set hanging_chain%n=1000 --output much >out 2>err)
+timeout 2 "$program" modes hanging_chain --set hanging_chain%n=1000 --output much >out 2>err
+check "5 GB of modes are said before they are looked for" grep -q "up to 5.0 GB are to be written" err
+rm -r much
 if [ -n "$disk" ]; then
     mount -o remount,rw,size=1m disk
     (timeout 30 "$program" modes hanging_chain --set hanging_chain%n=200 --output disk/new >out 2>err)

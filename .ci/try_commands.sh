@@ -311,7 +311,8 @@ check "modes rotating_hoop --at 0: what was asked for" json 'd["at"] == [0.0] an
 for name in $("$program" list systems 2>/dev/null | awk '{print $1}'); do
     run describe "$name"
     case $name in
-        double_pendulum|hanging_chain) check "describe $name: no closed form" grep -q '^  gauss16; no closed form is known$' "$work/out" ;;
+        double_pendulum|hanging_chain) check "describe $name: no closed form" grep -q '^  gauss16; the program has no closed form of it$' "$work/out" ;;
+        bouncing_ball) check "describe $name: auto looks for impacts" grep -q '^  gauss16, for impacts are looked for between its steps$' "$work/out" ;;
         *) check "describe $name: a closed form" grep -q '^  a closed form where one is known' "$work/out" ;;
     esac
 done
@@ -642,6 +643,21 @@ refuses 2 " of pendulum are one file: one would be lost" run pendulum pendulum_r
 refuses 2 "given twice, as 'a' and 'b'" run pendulum --output a --output=b
 refuses 2 "given twice, as '' and 'svg'" run pendulum --plot --plot=svg
 refuses 2 "&pendulum: l is given twice (first by another --set)" run pendulum --set pendulum%l=1 --set pendulum%l=2 --output "$work/none"
+run run pendulum --set scene%dt=1e-2 --set scene%dt=1e-2 --output "$work/twice"
+check "the same value twice is one change" eval '[ $status -eq 0 ] && grep -q "(dt=1e-2)$" "$work/out" && [ -s "$work/twice/pendulum_dt_1e-2.dat" ]'
+refuses 2 "'manual' is a command; 'lagrangia help manual' tells of it" manual manual
+check "a command's own name is told once" eval '! grep -q "shows what" "$work/err"'
+refuses 2 "--systems: 'wedge' is given twice" bench steps --systems wedge,pendulum,wedge --quick
+refuses 5 "$(printf "s%.0s" $(seq 40)).nml: no such file" bench precision steps --systems "$(printf "s%.0s" $(seq 40)).nml" --quick --output "$work/none"
+odd="$work/it's a scene with a name of more than thirty-two letters.nml"
+sed "s/'output.*//" data/scenes/pendulum.nml >"$odd"
+for words in describe check "derive" "modes --output $work/odd" "bench steps --quick --methods rk4 --systems"; do
+    run $words "$odd"
+    check "$words: writes no file that is called as the scene, and takes any name" [ "$status" -eq 0 ]
+done
+refuses 2 "give the scene an output, or its file another name" run "$odd" --output "$work/none"
+run bench steps --quick --methods rk4 --json --systems "$(ls data/scenes/*.nml | paste -sd,)"
+check "bench steps: a column for each of many scenes" json 'len(d[0]) == 3 + '"$(ls data/scenes/*.nml | wc -l)"' and d[0]["data/scenes/rolling_disk_incline.nml"] > 0'
 refuses 2 "lacks the letter of its exponent" bench --tolerances 1-3
 refuses 2 "lacks the letter of its exponent" modes pendulum --at 1-3
 refuses 2 "lacks the letter of its exponent" run pendulum --set scene%dt=1-3 --output "$work/none"

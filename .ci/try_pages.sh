@@ -158,7 +158,9 @@ page plain describe pendulum --set pendulum%b=0.1
 for b in 0.3 2 6; do page plain describe oscillator --set oscillator%m=1 --set oscillator%k=1 --set oscillator%b=$b; done
 page plain describe oscillator --set oscillator%k=0
 page plain describe rotating_wire --set rotating_wire%omega=0
+page plain describe rotating_hoop --set rotating_hoop%omega=0
 page plain describe driven_pendulum --set driven_pendulum%amplitude=0
+page plain describe driven_pendulum --set driven_pendulum%b=0.1
 { # equations that are too long to be printed
     echo "&scene system = 'long', dt = 0.1, duration = 1.0, q = 1.0 /"
     echo "&lagrangian coordinates = 'x [m] place', parameters = 'm [kg] mass', 'k [J] strength', 'b [kg/s] drag',"

@@ -228,13 +228,18 @@ contains
         call assertEqual([1e-6_dp, 1e-9_dp], choice%tolerances)
         call refused("--problems=P5", "unknown problem 'P5'; did you mean 'P1'?")
         call refused("--methods=gsl_rk8", "unknown method 'gsl_rk8'; did you mean 'gsl_rk4'?")
+        call choose([character(48) :: "bench", "--systems=wedge, pendulum"])
+        call assertFalse(allocated(error), message="two systems")
+        call assertEqual("wedge pendulum", choice%systems(1)%text//" "//choice%systems(2)%text)
         call refused("--systems=pendlum", "unknown system 'pendlum'; did you mean 'pendulum'?")
         call refused("--methods="//repeat("m", 31), "unknown method '"//repeat("m", 31)// &
                      "'; there are", begins=.true.)
         call refused("--methods="//repeat("m", 32), "unknown method '"//repeat("m", 32)// &
                      "'; there are", begins=.true.)
-        call refused("--methods="//repeat("m", 33), "unknown method '"//repeat("m", 31)// &
-                     "?'; there are", begins=.true.)
+        call refused("--methods="//repeat("m", 33), "unknown method '"//repeat("m", 33)// &
+                     "'; there are", begins=.true.)
+        call refused("--systems=pendulum,wedge,pendulum", "--systems: 'pendulum' is given "// &
+                     "twice; names with commas between them: pendulum,wedge")
         call refused("step", "unknown part 'step'; did you mean 'steps'?")
         call refused("velocity", "unknown part 'velocity'; there are precision, samples, "// &
                      "steps, energy, "// &

@@ -1,7 +1,8 @@
 module test_rheonomic
     !! Moving constraints, by Newton: forces of wire, hoop and rod, and the work that they do.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, assertTrue
-    use lagrangia_description, only: description_t
+    use lagrangia_catalogue, only: new_system, system_names
+    use lagrangia_description, only: default_values, description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
@@ -34,6 +35,8 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("without_motion_energy_is_conserved", &
                                       without_motion_energy_is_conserved))
+        call suite%addTest(TestMethod("only_what_moves_is_rheonomic", &
+                                      only_what_moves_is_rheonomic, setUp=restart_random))
     end function rheonomic_suite
 
     subroutine set(system, values)
@@ -175,6 +178,56 @@ contains
         end associate
         call assertGreaterThan(abs(rate), 1e-3_dp*scale, message="pivot: T + V changes")
     end subroutine energy_is_fed_by_the_drive
+
+    subroutine only_what_moves_is_rheonomic()
+        !! Every system with each of its parameters at zero, one at a time: its constraint is called
+        !! rheonomic where a mass moves while the coordinates rest, scleronomic where none does.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: values(:)
+        character(32), allocatable :: names(:)
+        integer :: i, k
+
+        allocate (names, source=system_names())
+        do i = 1, size(names)
+            call new_system(trim(names(i)), system, error)
+            call system%describe(d)
+            allocate (values, source=default_values(d))
+            do k = 0, size(values)
+                values = default_values(d)
+                if (k > 0) values(k) = 0.0_dp
+                call system%configure(values, error)
+                if (.not. allocated(error)) call called_rightly(system)
+            end do
+            deallocate (values)
+        end do
+    end subroutine only_what_moves_is_rheonomic
+
+    subroutine called_rightly(system)
+        !! See `only_what_moves_is_rheonomic`.
+        class(system_t), intent(in) :: system
+        type(description_t) :: d
+        type(hyperdual_t), allocatable :: path(:), r(:, :)
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t
+        integer :: i
+        logical :: moves
+
+        call system%describe(d)
+        if (index(d%constraint, "rheonomic") + index(d%constraint, "scleronomic") == 0) return
+        moves = .false.
+        do i = 1, 4
+            call draw_state(system, t, q, v)
+            if (allocated(path)) deallocate (path, r)
+            allocate (path(size(q)), r(3, size(d%points)))
+            path%re = q
+            call system%positions(hyperdual_t(re=t, d1=1.0_dp), path, r)
+            moves = moves .or. any(abs(r%d1) > 0.0_dp)
+        end do
+        call assertTrue(moves .eqv. index(d%constraint, "rheonomic") > 0, &
+                        trim(d%name)//": "//trim(d%constraint))
+    end subroutine called_rightly
 
     subroutine without_motion_energy_is_conserved()
         !! Where nothing turns or shakes T + V is declared to be conserved, and only there.

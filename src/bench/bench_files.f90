@@ -11,7 +11,9 @@ module lagrangia_bench_files
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_text, only: to_text
+    use lagrangia_scene_reader, only: names_scene
+    use lagrangia_shipped, only: find_scene
+    use lagrangia_text, only: to_text, word_t
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     use lagrangia_work_precision, only: curve_t
@@ -30,13 +32,22 @@ module lagrangia_bench_files
 
 contains
 
-    subroutine check_bench_files(folder, error)
-        !! Fails where the files could not be written now: before hours are spent on what they hold.
+    subroutine check_bench_files(folder, names, error)
+        !! Fails where the files could not be written now, or one of them is a scene that is read:
+        !! before hours are spent on what they hold.
         character(*), intent(in) :: folder  !! where the files go
+        type(word_t), intent(in) :: names(:)  !! of systems and scenes that are measured
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(:), allocatable :: path
         type(places_t) :: places
+        integer :: i
 
+        do i = 1, size(names)
+            if (.not. names_scene(names(i)%text)) cycle
+            call find_scene(names(i)%text, path, error)
+            if (.not. allocated(error)) call places%add(path, "scene", "", error)
+            if (allocated(error)) return
+        end do
         path = data_path(folder, file_name, "text")
         call claim_table(path, "data", "", places, error)
         if (.not. allocated(error)) call refuse_unwritable(path, error)

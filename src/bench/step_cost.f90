@@ -1,9 +1,9 @@
 module lagrangia_step_cost
     !! What one step costs, of every method on every system.
     use lagrangia_bench_problems, only: bench_problem_t
+    use lagrangia_characters, only: printable
     use lagrangia_command_line, only: word_t
     use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_step
-    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
@@ -23,7 +23,7 @@ contains
 
     subroutine measure_steps(systems, contestants, plan, watcher, table, error)
         !! Nanoseconds a step, and evaluations, of those that take fixed steps.
-        character(*), intent(in) :: systems(:)  !! their names
+        type(word_t), intent(in) :: systems(:)  !! their names, of scenes also paths
         type(contestant_box_t), intent(inout) :: contestants(:)  !! prepared as needed
         type(effort_t), intent(in) :: plan  !! how much is measured
         class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
@@ -38,7 +38,7 @@ contains
         allocate (cost(size(systems), size(contestants)), source=not_known())
         evaluations = not_known()
         do i = 1, size(systems)
-            call pose(trim(systems(i)), problem, error)
+            call pose(systems(i)%text, problem, error)
             if (allocated(error)) return
             do k = 1, size(contestants)
                 call look_around(watcher, (i - 1)*size(contestants) + k, size(cost), error)
@@ -52,9 +52,7 @@ contains
                     contestants(k)%item%evaluations*dt/duration
             end do
         end do
-        call table%begin("step_ns", "one step, ns (dt = 1e-3 s; -: the method "// &
-                         "refuses the system)", [character(name_length) :: "method", &
-                         "evaluations", systems])
+        call begin_table(table, systems, longest(systems))
         do k = 1, size(contestants)
             if (.not. any(cost(:, k) >= 0.0_dp)) cycle
             cells(1) = word_cell(contestants(k)%item%name)
@@ -63,6 +61,34 @@ contains
             call table%add(cells)
         end do
     end subroutine measure_steps
+
+    subroutine begin_table(table, systems, letters)
+        !! A column for each system, however long its name is.
+        type(printed_table_t), intent(inout) :: table
+        type(word_t), intent(in) :: systems(:)
+        integer, intent(in) :: letters  !! of the longest name
+        character(letters) :: names(2 + size(systems))
+        integer :: i
+
+        names(1) = "method"
+        names(2) = "evaluations"
+        do i = 1, size(systems)
+            names(2 + i) = printable(systems(i)%text)
+        end do
+        call table%begin("step_ns", "one step, ns (dt = 1e-3 s; -: the method "// &
+                         "refuses the system)", names)
+    end subroutine begin_table
+
+    pure integer function longest(systems)
+        !! Letters of a column's name.
+        type(word_t), intent(in) :: systems(:)
+        integer :: i
+
+        longest = len("evaluations")
+        do i = 1, size(systems)
+            longest = max(longest, len(printable(systems(i)%text)))
+        end do
+    end function longest
 
     subroutine time_steps(contestant, problem, plan, seconds)
         !! One sample of the time of a step; NaN where the system is refused. `evaluations` of the

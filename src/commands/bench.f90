@@ -50,7 +50,8 @@ contains
         if (allocated(error)) return
         call read_options(line, options, error)
         if (allocated(error)) return
-        if (any(options%parts == "precision")) call check_bench_files(options%folder, error)
+        if (any(options%parts == "precision")) call check_bench_files(options%folder, &
+                                                                           options%systems, error)
         if (allocated(error)) return
         watcher => progress
         output%json = line%has("json")

@@ -10,9 +10,10 @@ module lagrangia_bench_options
     use lagrangia_names, only: refuse_name
     use lagrangia_number_list, only: read_numbers
     use lagrangia_output_options, only: take_folder, take_picture
-    use lagrangia_scene_reader, only: names_scene
+    use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_stopwatch, only: effort, effort_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted, to_text, word_t
     implicit none (type, external)
     private
     public :: bench_options_t, parts, read_options
@@ -22,7 +23,8 @@ module lagrangia_bench_options
     real(dp), parameter :: least_tolerance = 1e-16_dp
 
     type :: bench_options_t
-        character(name_length), allocatable :: parts(:), problems(:), systems(:)
+        character(name_length), allocatable :: parts(:), problems(:)
+        type(word_t), allocatable :: systems(:)            !! names, of scenes also paths
         character(name_length), allocatable :: methods(:)  !! empty: all
         real(dp), allocatable :: tolerances(:)             !! empty: a ladder
         character(:), allocatable :: folder, picture
@@ -66,22 +68,35 @@ contains
     end subroutine read_options
 
     subroutine choose_systems(words, chosen, error)
-        !! Systems by their names, or those of scenes.
+        !! Systems by their names, or those of scenes, which are read now, not at their turn.
         character(*), intent(in) :: words(:)
-        character(name_length), allocatable, intent(out) :: chosen(:)
+        type(word_t), allocatable, intent(out) :: chosen(:)
         type(error_t), allocatable, intent(out) :: error
-        logical :: is_scene(size(words))
+        class(system_t), allocatable :: system
+        character(name_length), allocatable :: names(:)
         integer :: i
 
-        do i = 1, size(words)
-            is_scene(i) = names_scene(trim(words(i)))
-        end do
-        if (any(is_scene)) then
-            call choose("system", words, [character(name_length) :: system_names(), &
-                                          pack(words, is_scene)], chosen, error)
-        else
-            call choose("system", words, system_names(), chosen, error)
+        allocate (names, source=system_names())
+        if (size(words) == 0) then
+            allocate (chosen(size(names)))
+            do i = 1, size(names)
+                chosen(i)%text = trim(names(i))
+            end do
+            return
         end if
+        allocate (chosen(size(words)))
+        do i = 1, size(words)
+            chosen(i)%text = trim(words(i))
+            if (any(words(:i - 1) == words(i))) then
+                call fail(error, "--systems: "//quoted(chosen(i)%text)//" is given twice; "// &
+                          "names with commas between them: pendulum,wedge")
+            else if (names_scene(chosen(i)%text)) then
+                call read_named_system(chosen(i)%text, [word_t ::], system, error)
+            else if (.not. any(names == words(i))) then
+                call refuse_name("system", chosen(i)%text, names, error)
+            end if
+            if (allocated(error)) return
+        end do
     end subroutine choose_systems
 
     pure subroutine choose(kind, words, names, chosen, error)
@@ -97,13 +112,13 @@ contains
             chosen = names
             return
         end if
-        allocate (chosen(size(words)))
-        chosen = words
         do i = 1, size(words)
             if (any(names == words(i))) cycle
             call refuse_name(kind, trim(words(i)), names, error)
             return
         end do
+        allocate (chosen(size(words)))
+        chosen = words
     end subroutine choose
 
     pure subroutine read_tolerances(text, tolerances, error)
@@ -141,7 +156,7 @@ contains
         !! The words between commas in the value of an option; none where it is not given.
         type(command_line_t), intent(in) :: line
         character(*), intent(in) :: option
-        character(name_length), allocatable :: words(:)
+        character(:), allocatable :: words(:)
         character(:), allocatable :: text
         integer :: first, i, last, n
 
@@ -151,12 +166,11 @@ contains
         do i = 1, len(text)
             if (text(i:i) == ",") n = n + 1
         end do
-        allocate (words(n))
+        allocate (character(len(text)) :: words(n))  ! nothing is cut
         first = 1
         do i = 1, n
             last = index(text(first:)//",", ",") + first - 2
             words(i) = adjustl(text(first:last))
-            if (last - first + 1 > name_length) words(i)(name_length:) = "?"  ! no name is so long
             first = last + 2
         end do
     end function split

@@ -83,11 +83,13 @@ contains
         call put_line("  "//structure(system))
         if (system%nonconservative) call put_line("  "//potential_text(system))
         call put_line("method = '"//auto//"'")
-        if (has_closed_form(system)) then
+        if (system%contacts > 0) then
+            call put_line("  "//workhorse//", for impacts are looked for between its steps")
+        else if (has_closed_form(system)) then
             call put_line("  a closed form where one is known from the start, otherwise "// &
                           workhorse)
         else
-            call put_line("  "//workhorse//"; no closed form is known")
+            call put_line("  "//workhorse//"; the program has no closed form of it")
         end if
         if (size(d%notes) > 0) call put_line("notes")
         do i = 1, size(d%notes)

@@ -15,7 +15,7 @@ module lagrangia_modes_command
                               json_pair, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
-    use lagrangia_modes_files, only: prepare_modes, write_mode
+    use lagrangia_modes_files, only: claim_modes, prepare_modes, write_mode
     use lagrangia_modes_film, only: animate_modes
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
@@ -51,7 +51,7 @@ contains
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
         character(:), allocatable :: advice, folder, kind, label, name, page, stem
-        character(:), allocatable :: title, warning
+        character(:), allocatable :: source, title, warning
         character(figure_length), allocatable :: figure(:)
         logical :: elsewhere
         integer :: j
@@ -65,7 +65,7 @@ contains
         call take_picture(line, kind, error)
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error, &
-                               figure, label)
+                               figure, label, source)
         if (allocated(error)) return
         call system%describe(d)
         allocate (at, source=likely_equilibrium(system))
@@ -80,6 +80,10 @@ contains
         stem = data_path(folder, name//"_modes.html", "text")
         page = stem
         stem = stem(:len(stem) - len("_modes.html"))
+        if (line%has("output") .or. line%has("plot") .or. line%has("animate")) then
+            call claim_modes(system, stem, source, error)
+            if (allocated(error)) return
+        end if
         if (line%has("output") .or. line%has("plot")) then
             call prepare_modes(system, stem, warning, error)
             if (allocated(error)) return

@@ -284,10 +284,10 @@ contains
             end do
         end if
         if (allocated(error)) return
-        if (present(page)) call places%add(page, "report", "", error)
-        if (allocated(error)) return
         allocate (chosen(size(paths)))
         do turn = 1, 2  ! what is read comes before what is written
+            if (turn == 2 .and. present(page)) call places%add(page, "report", "", error)
+            if (allocated(error)) return
             do i = 1, size(paths)
                 if (turn == 1) then
                     chosen(i)%path = paths(i)

@@ -23,6 +23,7 @@ module lagrangia_sweep_command
     use lagrangia_resources, only: check_memory
     use lagrangia_scene, only: scene_t, sweep_text_length
     use lagrangia_scene_claims, only: claim_scene, claim_table
+    use lagrangia_scene_keys, only: refuse_output
     use lagrangia_scene_reader, only: read_scene, read_unchanged
     use lagrangia_shipped, only: find_sweep
     use lagrangia_sweep, only: new_sweep, sweep_t
@@ -300,8 +301,11 @@ contains
         type(places_t) :: places
 
         path = path_beside(data_path(folder, trim(scene%output), format), "_sweep")
-        call claim_scene(scene, places, error)
+        call refuse_output(scene, error)
+        if (.not. allocated(error)) call claim_scene(scene, places, error)
         if (.not. allocated(error)) call claim_table(path, "sweep", trim(scene%name), places, error)
+        if (.not. allocated(error)) call places%add(part_name(path, 1), "part of the sweep file", &
+                                                    trim(scene%name), error)
         if (allocated(error) .or. image_number() > 1) return
         call check_place(path, error)
         if (.not. allocated(error)) call check_place(script_path(path), error)

@@ -239,7 +239,8 @@ contains
         if (is_one_of(small, words)) meaning = "a command; 'lagrangia help "//small// &
             "' tells of it"
         if (meaning == "") return
-        call fail(error, quoted(word)//" is "//meaning//taken_instead(command))
+        if (small /= command%name) meaning = meaning//taken_instead(command)
+        call fail(error, quoted(word)//" is "//meaning)
     contains
         pure function commands_name(k) result(name)
             !! That takes it.

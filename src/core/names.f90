@@ -100,7 +100,7 @@ contains
         logical :: yes
 
         yes = .false.
-        if (len(short) < 1 .or. len(short) > 2) return
+        if (len(short) < 1 .or. len(short) > 2 .or. name == "") return
         yes = short(1:1) == name(1:1)
         if (yes .and. len(short) == 2) yes = index(name(2:), short(2:)) > 0
     end function abbreviates

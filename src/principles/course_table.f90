@@ -130,7 +130,7 @@ contains
                  "run driven_pendulum; errata E11")
         call add(course, "I", 64, 65, &
                  "\Rightarrow Q_j = -\frac{\partial V}{\partial q_j} (\{q_j\}, t)", &
-                 "Q = -dV/dq for every system of the lectures", &
+                 "Q = -dV/dq for every system whose V has no velocities", &
                  "principle virtual-work")
         call add(course, "I", 66, 69, &
                  "$\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - \frac{\partial "// &

@@ -44,6 +44,8 @@ contains
         bytes = bytes_to_read(script)
         ! In the locale C gnuplot warns, at each `set encoding`, that it has no degree sign.
         status = int(c_setenv("LC_ALL"//c_null_char, "C.UTF-8"//c_null_char, 1_c_int))
+        ! It fails on a terminal there that it does not know, and the script chooses its own.
+        status = int(c_setenv("GNUTERM"//c_null_char, "unknown"//c_null_char, 1_c_int))
         status = 0
         call start_program(words, pid, error)
         do while (.not. allocated(error))

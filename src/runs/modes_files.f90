@@ -8,7 +8,7 @@ module lagrangia_modes_files
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
     use lagrangia_kinds, only: dp
-    use lagrangia_mode_picture, only: has_positions, mode_picture_path
+    use lagrangia_mode_picture, only: mode_picture_path
     use lagrangia_number_text, only: field_width
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
@@ -21,31 +21,40 @@ module lagrangia_modes_files
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: prepare_modes, size_of_modes, write_mode
+    public :: claim_modes, prepare_modes, size_of_modes, write_mode
 
     integer, parameter :: samples = 200
 
 contains
 
+    subroutine claim_modes(system, stem, source, error)
+        !! Fails where two of the files of the modes are one, or one of them is the scene. To be
+        !! called before any is written, the film too.
+        class(system_t), intent(in) :: system  !! of any size
+        character(*), intent(in) :: stem  !! folder, and how all names begin
+        character(*), intent(in) :: source  !! the file that the scene was read from, or ""
+        type(error_t), allocatable, intent(out) :: error  !! names both
+        type(places_t) :: places
+        integer :: j
+
+        if (source /= "") call places%add(source, "scene", "", error)
+        do j = 1, system%ndof
+            if (.not. allocated(error)) call claim_table(mode_path(stem, j), "data", "", places, &
+                                                         error)
+        end do
+        if (.not. allocated(error)) call claim_table(mode_picture_path(stem), "data", "", places, &
+                                                     error)
+    end subroutine claim_modes
+
     subroutine prepare_modes(system, stem, warning, error)
-        !! Fails where two of the files are one, or the first could not be written now; says how
-        !! much all will hold, if that is very much. To be called before modes are looked for.
+        !! Fails where the first of the data files could not be written now; says how much all will
+        !! hold, if that is very much. To be called before modes are looked for.
         class(system_t), intent(in) :: system  !! with its parameters
         character(*), intent(in) :: stem  !! folder, made if need be, and how all names begin
         character(:), allocatable, intent(out) :: warning  !! a line for the user, or nothing
         type(error_t), allocatable, intent(out) :: error  !! of a file
-        type(places_t) :: places
-        integer :: j
 
         warning = space_warning(size_of_modes(system), folder_of(stem))
-        do j = 1, system%ndof
-            call claim_table(mode_path(stem, j), "data", "", places, error)
-            if (allocated(error)) return
-        end do
-        if (has_positions(system)) then
-            call claim_table(mode_picture_path(stem), "data", "", places, error)
-            if (allocated(error)) return
-        end if
         call refuse_unwritable(mode_path(stem, 1), error)
     end subroutine prepare_modes
 

@@ -8,6 +8,7 @@ module lagrangia_scene_claims
     use lagrangia_output_file, only: partial_ending
     use lagrangia_places, only: places_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_scene_keys, only: refuse_output
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -46,6 +47,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! names both owners
         character(:), allocatable :: owner, path
 
+        call refuse_output(scene, error)
+        if (allocated(error)) return
         owner = trim(scene%name)
         path = data_path(folder, trim(scene%output), format)
         call claim_table(path, "data", owner, places, error)

@@ -146,7 +146,7 @@ contains
         given = " "
         do i = 1, size(overrides)
             call split(overrides(i)%text, group, key, value)
-            if (group == "sweep") cycle
+            if (group == "sweep" .or. said_before(i)) cycle
             if (group == "scene") then
                 given = given//key//" "
                 if (.not. present(same)) cycle
@@ -158,6 +158,20 @@ contains
             end if
             call add(changes, key//"="//value)
         end do
+    contains
+        pure function said_before(k) result(yes)
+            !! The same value of the same key twice changes no more than once.
+            integer, intent(in) :: k
+            logical :: yes
+            character(:), allocatable :: group2, key2, value2
+            integer :: j
+
+            yes = .false.
+            do j = 1, k - 1
+                call split(overrides(j)%text, group2, key2, value2)
+                yes = yes .or. (group2 == group .and. key2 == key .and. value2 == value)
+            end do
+        end function said_before
     end subroutine read_changes
 
     pure function without_index(key) result(name)

@@ -1,6 +1,5 @@
 module lagrangia_scene_keys
     !! The keys of the group `&scene`, each checked as far as it can be by itself.
-    use lagrangia_characters, only: printable
     use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
@@ -13,12 +12,11 @@ module lagrangia_scene_keys
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, lower, to_text
+    use lagrangia_text, only: join, lower, quoted, to_text
     implicit none (type, external)
     private
     public :: keys, key_length, coordinates, drift_keys, expectation_keys, read_columns, &
-        read_state, &
-              read_times
+              read_state, read_times, refuse_output
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
@@ -228,17 +226,21 @@ contains
         end do
         scene%output = scene%name
         call get_string(tree, "scene", "output", scene%output, error)
-        if (allocated(error)) return
-        if (.not. bad_output(trim(scene%output))) return
-        if (has_key(tree, "scene", "output")) then
-            call refuse_value(tree, "scene", "output", "a file name below the output folder "// &
-                              "is needed: "//good_names, error)
-        else
-            call fail(error, printable(trim(scene%name))//": the data files of a scene have "// &
-                      "its name, and this one is none for them: "//good_names// &
-                      ", no - in front; give the scene an output, or its file another name")
-        end if
+        if (allocated(error) .or. .not. has_key(tree, "scene", "output")) return
+        if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", "a file "// &
+            "name below the output folder is needed: "//good_names, error)
     end subroutine read_columns
+
+    pure subroutine refuse_output(scene, error)
+        !! Without an output the data files have the scene's name, which may be none for them. To be
+        !! asked before they are written.
+        type(scene_t), intent(in) :: scene  !! as `read_scene` gives it
+        type(error_t), allocatable, intent(out) :: error  !! it is none
+
+        if (bad_output(trim(scene%output))) call fail(error, "the data files of a scene have "// &
+            "its name, and "//quoted(trim(scene%output))//" is none for them: "//good_names// &
+            ", no - in front; give the scene an output, or its file another name")
+    end subroutine refuse_output
 
     subroutine check_steps(tree, scene, error)
         !! Steps that are at most as long as the run, that can be counted, and that move the time.

@@ -51,7 +51,7 @@ contains
         call parse_scene(text, path, overrides, scene, system, error)
     end subroutine read_scene
 
-    subroutine read_named_system(name, overrides, system, error, figure, label)
+    subroutine read_named_system(name, overrides, system, error, figure, label, source)
         !! The system called `name`, its parameters set by the words behind `--set`; or that of the
         !! scene `name`, with the scene's parameters.
         character(*), intent(in) :: name  !! as 'list' shows it, or a path
@@ -61,6 +61,7 @@ contains
         character(figure_length), allocatable, intent(out), optional :: figure(:)
         !! parts that the scene draws it by; none: the system's own
         character(:), allocatable, intent(out), optional :: label  !! the scene's name, or `name`
+        character(:), allocatable, intent(out), optional :: source  !! the scene's file, or ""
         character(:), allocatable :: path, text
         type(namelist_t) :: tree
         type(scene_t) :: scene
@@ -68,8 +69,10 @@ contains
 
         if (present(figure)) allocate (figure(0))
         if (present(label)) label = name
+        if (present(source)) source = ""
         if (names_scene(name)) then
             call find_scene(name, path, error)
+            if (present(source)) source = path
             if (.not. allocated(error)) call read_scene(path, overrides, scene, system, error)
             if (allocated(error)) return
             if (present(figure)) figure = scene%figure

@@ -140,7 +140,7 @@ contains
             "The notes have F = - grad(phi) for B = 0: a slip, e is missing: - e grad(phi).", &
             "n: along B, without B along E; r = s + e E/trap, without a trap r = s.", &
             "Any gauge, one motion: m v + e A depends on it, m v + e B x r - e E t does not.", &
-            "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
+            "Free, in B: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
             "L_axis is conserved in a trap; without one where E is parallel to B or zero.", &
             "In the trap two of the frequencies belong to turning across B."]
         d%figure = [character(figure_length) :: "trail particle", "ball particle"]

@@ -118,7 +118,8 @@ contains
         end if
         d%notes = [character(len(d%title)) :: &
             "As the notes say: V = m g y has no t, V(theta, t) has, by way of y(theta, t).", &
-            "Lagrange's equations hold; h is not conserved: dh/dt = - dL/dt (partial).", &
+            "Lagrange's equations hold; dh/dt = - dL/dt (partial), less b theta_dot^2.", &
+            "Neither h nor T + V is conserved, unless the pivot rests and nothing damps.", &
             "y_p, the pivot's height, counts upwards; at t = 0 it is a.", &
             "A function of t alone may be left out of L (uniqueness): then h changes, not theta.", &
             "Upside down it is stable for a fast drive: (a W)^2 > 2 g l, a << l (Kapitza)."]

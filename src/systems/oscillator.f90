@@ -94,9 +94,10 @@ contains
         end if
         d%notes = [character(len(d%title)) :: &
             "The scan has dL/dx_dot = m d(x_dot)/dt: read dL/dx_dot = m x_dot, the momentum.", &
-            "The frequency is the same at any amplitude.", &
+            "Undriven, its frequency is the same at any amplitude.", &
             "Damping and a drive are forces beside L: describe damped_oscillator shows them.", &
-            "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
+            "Without both the actual path makes the action stationary, a minimum only for t < "// &
+            "pi/omega."]
         d%figure = [character(figure_length) :: "ground (x_min - size, 0) (x_min - size, - 1)", &
                     "ground (x_min - size, - size/12) (x_min, - size/12)", &
                     "spring (x_min - size, 0) mass", "box mass (size/6, size/6)"]

@@ -96,7 +96,8 @@ contains
         d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + y_bob^2 = l^2"]
         d%notes = [character(len(d%title)) :: &
             "A constant, or a total time derivative, may be added to L: the equation stays.", &
-            "Period 2 pi sqrt(l/g)/agm(1, cos(theta0/2)), agm the arithmetic-geometric mean.", &
+            "Undamped: period 2 pi sqrt(l/g)/agm(1, cos(theta0/2)), agm the "// &
+            "arithmetic-geometric mean.", &
             "A rod can push: where the tension is negative, a string would go slack."]
         d%figure = [character(figure_length) :: "pivot origin", "rod origin bob", "ball bob"]
         d%source = "Phys 601, 1 September 2011: uniqueness of the Lagrangian"

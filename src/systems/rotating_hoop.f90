@@ -96,12 +96,14 @@ contains
         if (self%omega**2*self%r > self%g) d%frequencies = [d%frequencies, &
             frequency_t("Omega^2 = omega^2 - g^2/(omega r)^2", "cos(theta) = g/(omega^2 r)")]
         d%constraint = "holonomic, rheonomic"
+        if (abs(self%omega) <= 0.0_dp) d%constraint = "holonomic, scleronomic"
         d%constraint_equations = [character(len(d%title)) :: &
             "x_bead sin(omega t) - y_bead cos(omega t) = 0", &
             "x_bead^2 + y_bead^2 + z_bead^2 = r^2"]
         d%notes = [character(len(d%title)) :: &
             "The notes only define the concept: a constraint containing the time is rheonomic.", &
-            "L has no t, so h = theta_dot dL/dtheta_dot - L is conserved; T + V is not.", &
+            "L has no t, so h = theta_dot dL/dtheta_dot - L is conserved; "// &
+            "while it turns, T + V is not.", &
             "Power of the drive: d(T + V)/dt = omega torque, torque = dL_z/dt.", &
             "At the bottom it is stable while omega^2 < g/r, at the top never. Faster, it "// &
             "stands tilted."]

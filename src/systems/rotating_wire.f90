@@ -81,11 +81,13 @@ contains
             "r = r_0 cosh(omega t) + r_dot_0/omega sinh(omega t)"]
         if (abs(self%omega) <= 0.0_dp) d%motion(1) = "r = r_0 + r_dot_0 t"
         d%constraint = "holonomic, rheonomic"
+        if (abs(self%omega) <= 0.0_dp) d%constraint = "holonomic, scleronomic"
         d%constraint_equations = [character(len(d%title)) :: &
             "x_bead sin(omega t) - y_bead cos(omega t) = 0"]
         d%notes = [character(len(d%title)) :: &
             "The notes only define the concept: a constraint containing the time is rheonomic.", &
-            "L has no t: h = r_dot dL/dr_dot - L is conserved. T is not: the wire does work.", &
+            "L has no t: h = r_dot dL/dr_dot - L is conserved.", &
+            "While it turns: T is not conserved, for the wire does work.", &
             "While it turns: at rest only on the axis; released elsewhere it is thrown out.", &
             "Turning is horizontal: gravity does not enter."]
         d%figure = [character(figure_length) :: "trail bead", &

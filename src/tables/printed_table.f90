@@ -14,7 +14,7 @@ module lagrangia_printed_table
     public :: count_cell, number_cell, word_cell
     public :: left, right, short, two_digits
 
-    integer, parameter :: most_columns = 24, width_of_cell = 72
+    integer, parameter :: width_of_cell = 72
 
     type :: cell_t
         character(width_of_cell) :: shown = ""   !! to people
@@ -22,17 +22,13 @@ module lagrangia_printed_table
         logical :: word = .false.        !! stands to the left
     end type cell_t
 
-    type :: row_t
-        type(cell_t) :: cells(most_columns)
-    end type row_t
-
     type :: printed_table_t
         !! One table.
         character(width_of_cell) :: name = ""                  !! key of its rows in JSON
         character(200) :: title = ""
         integer :: columns = 0, rows = 0
-        character(width_of_cell) :: names(most_columns) = ""
-        type(row_t), allocatable :: row(:)
+        type(word_t), allocatable :: names(:)
+        type(cell_t), allocatable :: cells(:, :)       !! a column each row, and room for more
         logical :: silent = .false.                    !! in JSON only: too long to be read
     contains
         procedure :: begin
@@ -49,29 +45,34 @@ contains
         character(*), intent(in) :: name      !! key of its rows in JSON
         character(*), intent(in) :: title     !! above it
         character(*), intent(in) :: names(:)  !! of its columns
+        integer :: i
 
         self%name = name
         self%title = title
         self%columns = size(names)
-        self%names(:size(names)) = names
+        if (allocated(self%names)) deallocate (self%names)
+        allocate (self%names(size(names)))
+        do i = 1, size(names)
+            self%names(i)%text = trim(names(i))
+        end do
         self%rows = 0
-        if (allocated(self%row)) deallocate (self%row)
-        allocate (self%row(16))
+        if (allocated(self%cells)) deallocate (self%cells)
+        allocate (self%cells(size(names), 16))
     end subroutine begin
 
     pure subroutine add(self, cells)
         !! One more row.
         class(printed_table_t), intent(inout) :: self
         type(cell_t), intent(in) :: cells(:)  !! one a column
-        type(row_t), allocatable :: longer(:)
+        type(cell_t), allocatable :: longer(:, :)
 
-        if (self%rows == size(self%row)) then
-            allocate (longer(2*self%rows))
-            longer(:self%rows) = self%row
-            call move_alloc(longer, self%row)
+        if (self%rows == size(self%cells, 2)) then
+            allocate (longer(self%columns, 2*self%rows))
+            longer(:, :self%rows) = self%cells
+            call move_alloc(longer, self%cells)
         end if
         self%rows = self%rows + 1
-        self%row(self%rows)%cells(:self%columns) = cells
+        self%cells(:, self%rows) = cells
     end subroutine add
 
     pure subroutine lines(self, width, text)
@@ -80,14 +81,13 @@ contains
         class(printed_table_t), intent(in) :: self
         integer, intent(in) :: width                       !! columns of a line
         type(word_t), allocatable, intent(out) :: text(:)  !! an empty line between two parts
-        integer :: first(most_columns), last(most_columns), wide(most_columns)
-        character(width_of_cell) :: words(most_columns)
+        integer :: first(self%columns), last(self%columns), wide(self%columns)
         integer :: i, k, names, parts, n
 
         do k = 1, self%columns
-            wide(k) = len_trim(self%names(k)) + 2
+            wide(k) = len(self%names(k)%text) + 2
             if (self%rows > 0) wide(k) = max(wide(k), 2 + &
-                                             maxval(len_trim(self%row(:self%rows)%cells(k)%shown)))
+                                             maxval(len_trim(self%cells(k, :self%rows)%shown)))
         end do
         names = 1
         do k = 2, self%columns
@@ -111,27 +111,30 @@ contains
             n = n + 1
             if (i > 1) text(n)%text = ""
             if (i > 1) n = n + 1
-            text(n)%text = aligned(self%names)
-            do k = 1, self%rows
-                n = n + 1
-                words = self%row(k)%cells%shown
-                text(n)%text = aligned(words)
+            do k = 0, self%rows
+                if (k > 0) n = n + 1
+                text(n)%text = aligned(k)
             end do
         end do
     contains
-        pure function aligned(words) result(line)
+        pure function aligned(row) result(line)
             !! One word a column, two blanks behind each; numbers to the right.
-            character(*), intent(in) :: words(:)
-            character(:), allocatable :: line
+            integer, intent(in) :: row  !! 0: the titles
+            character(:), allocatable :: line, word
             integer :: j
 
             line = ""
             do j = 1, last(i)
                 if (j > names .and. j < first(i)) cycle
-                if (is_word(self, j)) then
-                    line = line//left(words(j), wide(j))
+                if (row == 0) then
+                    word = self%names(j)%text
                 else
-                    line = line//repeat(" ", wide(j) - 2 - len_trim(words(j)))//trim(words(j))//"  "
+                    word = trim(self%cells(j, row)%shown)
+                end if
+                if (is_word(self, j)) then
+                    line = line//left(word, wide(j))
+                else
+                    line = line//repeat(" ", wide(j) - 2 - len(word))//word//"  "
                 end if
             end do
             line = trim(line)
@@ -145,7 +148,7 @@ contains
         logical :: yes
 
         yes = .true.
-        if (self%rows > 0) yes = self%row(1)%cells(k)%word
+        if (self%rows > 0) yes = self%cells(k, 1)%word
     end function is_word
 
     pure function left(text, width) result(cell)
@@ -175,7 +178,7 @@ contains
 
         json = json_item("table", json_string(self%name))
         do k = 1, self%columns
-            json = json//json_item(self%names(k), trim(self%row(i)%cells(k)%json))
+            json = json//json_item(self%names(k)%text, trim(self%cells(k, i)%json))
         end do
         json = json_object(json)
     end function object
