@@ -25,8 +25,10 @@ module own_closed_forms
     end type own_spring_t
 
     type, extends(reference_t) :: own_turns_t
-        !! Turns by \(\omega(t - t_0)\) in the plane of \(x\) and \(\dot x/\omega\).
-        real(dp) :: omega = 0.0_dp, t0 = 0.0_dp, x0 = 0.0_dp, v0 = 0.0_dp
+        !! Turns by \(\omega(t - t_0)\) in the plane of \(x\) and \(\dot x/\omega\), for each
+        !! coordinate.
+        real(dp), dimension(2) :: omega = 0.0_dp, x0 = 0.0_dp, v0 = 0.0_dp
+        real(dp) :: t0 = 0.0_dp
     contains
         procedure :: state_at
     end type own_turns_t
@@ -40,14 +42,6 @@ module own_closed_forms
         procedure :: lagrangian => lagrangian_plane
         procedure :: closed_form => closed_form_plane
     end type own_plane_t
-
-    type, extends(reference_t) :: own_ellipse_t
-        !! As `own_turns_t`, in two planes.
-        real(dp), dimension(2) :: omega, x0, v0
-        real(dp) :: t0 = 0.0_dp
-    contains
-        procedure :: state_at => ellipse_at
-    end type own_ellipse_t
 
     type, extends(pendulum_t) :: own_drag_t
         !! Equations that are not the pendulum's any more, whose closed form it has inherited.
@@ -91,7 +85,7 @@ contains
         turns%x0 = q0(1)
         if (self%kind == wrong_start) turns%x0 = 1.001_dp*q0(1)
         turns%v0 = v0(1)
-        turns%period = 2.0_dp*acos(-1.0_dp)/turns%omega
+        turns%period = 2.0_dp*acos(-1.0_dp)/turns%omega(1)
         allocate (reference, source=turns)
     end subroutine closed_form
 
@@ -100,9 +94,10 @@ contains
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(self%ndof), v(self%ndof)
 
-        associate (angle => self%omega*(t - self%t0))
-            q = self%x0*cos(angle) + self%v0/self%omega*sin(angle)
-            v = self%v0*cos(angle) - self%x0*self%omega*sin(angle)
+        associate (omega => self%omega(:self%ndof), x0 => self%x0(:self%ndof), &
+                   v0 => self%v0(:self%ndof))
+            q = x0*cos(omega*(t - self%t0)) + v0/omega*sin(omega*(t - self%t0))
+            v = v0*cos(omega*(t - self%t0)) - x0*omega*sin(omega*(t - self%t0))
         end associate
     end subroutine state_at
 
@@ -128,7 +123,7 @@ contains
         class(own_plane_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
         class(reference_t), allocatable, intent(out) :: reference
-        type(own_ellipse_t) :: ellipse
+        type(own_turns_t) :: ellipse
 
         ellipse%title = "own ellipse"
         ellipse%ndof = 2
@@ -142,17 +137,6 @@ contains
         end associate
         allocate (reference, source=ellipse)
     end subroutine closed_form_plane
-
-    pure subroutine ellipse_at(self, t, q, v)
-        class(own_ellipse_t), intent(in) :: self
-        real(dp), intent(in) :: t
-        real(dp), intent(out) :: q(self%ndof), v(self%ndof)
-
-        associate (angle => self%omega*(t - self%t0))
-            q = self%x0*cos(angle) + self%v0/self%omega*sin(angle)
-            v = self%v0*cos(angle) - self%x0*self%omega*sin(angle)
-        end associate
-    end subroutine ellipse_at
 
     pure subroutine describe(self, d)
         class(own_drag_t), intent(in) :: self
