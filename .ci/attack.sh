@@ -40,22 +40,22 @@ for i in "${!writers[@]}"; do
     check "$writer: the file is a folder" eval '[ $status -eq 5 ] && one_line && leftovers "$work/taken$i"'
     mkdir "$work/small$i"
     plant "$work/small$i" ${makes[i]}
-    (ulimit -f 0; timeout 20 "$program" $writer --output "$work/small$i" >/dev/null 2>&1)
+    (ulimit -f 0; timeout 120 "$program" $writer --output "$work/small$i" >/dev/null 2>&1)
     status=$?
     check "$writer: no byte may be written; the old files live" eval '[ $status -eq 5 ] && unharmed "$work/small$i" ${makes[i]} && leftovers "$work/small$i"'
     for name in "a b" "it's" '"q"' '$(touch owned)' '`touch owned`' '; touch owned;' $'new\nline' -- '-dash' 'ä→'; do
         [ "$name" = -- ] && continue
-        (cd "$work" && timeout 20 "$program" $writer "--output=$name" >"$work/out" 2>"$work/err" </dev/null)
+        (cd "$work" && timeout 120 "$program" $writer "--output=$name" >"$work/out" 2>"$work/err" </dev/null)
         status=$?
         check "$writer: --output=$(printf %q "$name")" eval '[ $status -eq 0 ] && [ -d "$work/$name" ] && [ ! -e "$work/owned" ]'
         rm -rf "${work:?}/$name"
     done
-    (set -o pipefail; timeout 20 "$program" $writer --output "$work/p" 2>"$work/err" >&-)
+    (set -o pipefail; timeout 120 "$program" $writer --output "$work/p" 2>"$work/err" >&-)
     status=$?
     case $writer in
         *--quiet*) ;;
         *) check "$writer: stdout is closed" eval '[ $status -eq 5 ] && one_line'
-           timeout 20 "$program" $writer --output "$work/p" 2>"$work/err" >/dev/full
+           timeout 120 "$program" $writer --output "$work/p" 2>"$work/err" >/dev/full
            status=$?
            check "$writer: stdout is full" eval '[ $status -eq 5 ] && one_line' ;;
     esac
@@ -65,7 +65,7 @@ done
 user() { # user WORDS...: the program, run by somebody without privileges
     local who=(setpriv --reuid=65534 --regid=65534 --clear-groups)
     [ "$(id -u)" -eq 0 ] || who=()
-    (cd "$work" && timeout 20 ${who[@]+"${who[@]}"} ./lagrangia "$@") >"$work/out" 2>"$work/err" </dev/null
+    (cd "$work" && timeout 120 ${who[@]+"${who[@]}"} ./lagrangia "$@") >"$work/out" 2>"$work/err" </dev/null
     status=$?
 }
 forbidden() { # forbidden CLAIM FOLDER FILES...: refused, nothing harmed, nothing left
@@ -170,7 +170,7 @@ if command -v gnuplot >/dev/null; then
         inside "$work" run pendulum --plot=svg --quiet "--output=$text"
         check "--plot --output=$(printf %q "$text"): drawn, nothing is run" eval '[ $status -eq 0 ] && [ -s "$work/$text/pendulum.svg" ] && [ -z "$(find "$work" -name owned)" ]'
         rm -rf "$work/./$text/pendulum.png"
-        (cd "$work/./$text" && timeout 20 gnuplot pendulum.gp >/dev/null 2>"$work/err")
+        (cd "$work/./$text" && timeout 120 gnuplot pendulum.gp >/dev/null 2>"$work/err")
         status=$?
         check "the same script, by hand" eval '[ $status -eq 0 ] && [ -s "$work/./$text/pendulum.png" ] && [ -z "$(find "$work" -name owned)" ]'
         rm -rf "$work/./$text"
@@ -225,7 +225,7 @@ check "--json carries the warning of the step limit" eval 'python3 -c "import js
 
 # Pipes: a reader that has seen enough is no error of ours, but the status tells that not all was read
 unread() { # unread WORDS...: stdout is a pipe whose reader has gone
-    { sleep 0.1; timeout 20 "$program" "$@" 2>"$work/err"; echo $? >"$work/status"; } | true
+    { sleep 0.1; timeout 120 "$program" "$@" 2>"$work/err"; echo $? >"$work/status"; } | true
     status=$(cat "$work/status")
 }
 silent() { [ $status -eq 141 ] && [ ! -s "$work/err" ]; }

@@ -237,7 +237,7 @@ plant "$work/drawn" pendulum.svg
 plot=(run pendulum --plot=svg --output "$work/drawn")
 real_path=$PATH
 timeout=$(command -v timeout)
-PATH=$work/nothing "$timeout" 20 "$program" "${plot[@]}" >"$work/out" 2>"$work/err" </dev/null
+PATH=$work/nothing "$timeout" 120 "$program" "${plot[@]}" >"$work/out" 2>"$work/err" </dev/null
 status=$?
 drawn_badly "--plot: there is no gnuplot"
 PATH=$work/bin:$PATH

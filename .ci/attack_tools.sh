@@ -33,7 +33,7 @@ check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
 }
 
 run() { # run WORDS...: status, $work/out, $work/err
-    timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
+    timeout 120 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
     status=$?
 }
 
