@@ -651,11 +651,13 @@ refuses 2 "--systems: 'wedge' is given twice" bench steps --systems wedge,pendul
 refuses 5 "$(printf "s%.0s" $(seq 40)).nml: no such file" bench precision steps --systems "$(printf "s%.0s" $(seq 40)).nml" --quick --output "$work/none"
 odd="$work/it's a scene with a name of more than thirty-two letters.nml"
 sed "s/'output.*//" data/scenes/pendulum.nml >"$odd"
-for words in describe check "derive" "modes --output $work/odd" "bench steps --quick --methods rk4 --systems"; do
+for words in describe check derive modes "bench steps --quick --methods rk4 --systems"; do
     run $words "$odd"
     check "$words: writes no file that is called as the scene, and takes any name" [ "$status" -eq 0 ]
 done
-refuses 2 "give the scene an output, or its file another name" run "$odd" --output "$work/none"
+for words in run modes; do
+    refuses 2 "give the scene an output, or its file another name" $words "$odd" --output "$work/none"
+done
 run bench steps --quick --methods rk4 --json --systems "$(ls data/scenes/*.nml | paste -sd,)"
 check "bench steps: a column for each of many scenes" json 'len(d[0]) == 3 + '"$(ls data/scenes/*.nml | wc -l)"' and d[0]["data/scenes/rolling_disk_incline.nml"] > 0'
 refuses 2 "lacks the letter of its exponent" bench --tolerances 1-3

@@ -1,23 +1,33 @@
 module test_progress
     !! How long something takes, in words.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_accuracy, only: share_of_run
+    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
+    use lagrangia_outcome, only: outcome_t
     use lagrangia_part, only: part_t
     use lagrangia_progress, only: about, pace, part_label, progress_line
+    use lagrangia_run_plan, only: parse_run_plan, run_plan_t
+    use lagrangia_scene_run, only: run_scene
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: progress_suite
 
     type, extends(observer_t) :: listener_t
-        !! Keeps the last share that it was told.
+        !! Keeps the last share that it was told, and each.
         real(dp) :: share = -1.0_dp
+        real(dp), allocatable :: shares(:)
     contains
         procedure :: observe
         procedure :: tick
     end type listener_t
+
+    class(observer_t), pointer :: whoever => null()
+    !! Of a pointer of a procedure's own gfortran 12 believes that, passed as intent(in), it changes
+    !! nothing of its target.
 
 contains
 
@@ -30,6 +40,7 @@ contains
         call suite%addTest(TestMethod("lines_say_how_far_it_is", lines_say_how_far_it_is))
         call suite%addTest(TestMethod("parts_have_numbers", parts_have_numbers))
         call suite%addTest(TestMethod("a_part_counts_as_its_share", a_part_counts_as_its_share))
+        call suite%addTest(TestMethod("an_estimate_is_of_the_whole", an_estimate_is_of_the_whole))
     end function progress_suite
 
     subroutine durations_have_their_unit()
@@ -92,6 +103,37 @@ contains
         call assertTrue(listener%share < 0.0_dp, "told to nobody")
     end subroutine a_part_counts_as_its_share
 
+    subroutine an_estimate_is_of_the_whole()
+        !! A run whose error is estimated is an eighth of the work, which goes on to seven eighths
+        !! by the finer runs and never back; any other run is all of it.
+        call check(".false.", 1.0_dp, 1.0_dp)
+        call check(".true.", share_of_run, 0.875_dp)
+    contains
+        subroutine check(estimated, run, last)
+            character(*), intent(in) :: estimated
+            real(dp), intent(in) :: run, last  !! shares when the run itself, and all, has ended
+            type(listener_t), target :: listener
+            type(run_plan_t) :: plan
+            type(outcome_t) :: outcome
+            type(error_t), allocatable :: error
+
+            call parse_run_plan(plan, "&scene system='pendulum' q=1 duration=1 dt=0.01 "// &
+                                "every=1 error_estimate="//estimated//" /", "s.nml", &
+                                [word_t ::], error)
+            call assertFalse(allocated(error), "a scene")
+            if (allocated(error)) return
+            whoever => listener
+            call run_scene(plan, "", "text", whoever, outcome, error)
+            call assertFalse(allocated(error), "it runs")
+            if (allocated(error)) return
+            associate (told => listener%shares)
+                call assertTrue(all(told(2:) >= told(:size(told) - 1)), estimated//": never back")
+                call assertEqual(0.5_dp*run, told(51), 1e-12_dp, estimated//": half of the run")
+                call assertEqual(last, told(size(told)), 1e-12_dp, estimated//": the end")
+            end associate
+        end subroutine check
+    end subroutine an_estimate_is_of_the_whole
+
     subroutine observe(self, system, t, q, v, error)
         !! The states don't matter.
         class(listener_t), intent(inout) :: self
@@ -106,5 +148,7 @@ contains
         integer(i8), intent(in) :: done, steps
 
         self%share = real(done, dp)/real(steps, dp)
+        if (.not. allocated(self%shares)) allocate (self%shares(0))
+        self%shares = [self%shares, self%share]
     end subroutine tick
 end module test_progress

@@ -22,6 +22,7 @@ module lagrangia_modes_command
     use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_output_options, only: is_told, show_picture, take_folder, take_picture
     use lagrangia_progress, only: progress_t
+    use lagrangia_scene_keys, only: refuse_output
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
                                             likely_equilibrium, modes_t, twin_of
@@ -81,7 +82,8 @@ contains
         page = stem
         stem = stem(:len(stem) - len("_modes.html"))
         if (line%has("output") .or. line%has("plot") .or. line%has("animate")) then
-            call claim_modes(system, stem, source, error)
+            call refuse_output(label, error)
+            if (.not. allocated(error)) call claim_modes(system, stem, source, error)
             if (allocated(error)) return
         end if
         if (line%has("output") .or. line%has("plot")) then

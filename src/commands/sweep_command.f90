@@ -301,7 +301,7 @@ contains
         type(places_t) :: places
 
         path = path_beside(data_path(folder, trim(scene%output), format), "_sweep")
-        call refuse_output(scene, error)
+        call refuse_output(scene%output, error)
         if (.not. allocated(error)) call claim_scene(scene, places, error)
         if (.not. allocated(error)) call claim_table(path, "sweep", trim(scene%name), places, error)
         if (.not. allocated(error)) call places%add(part_name(path, 1), "part of the sweep file", &

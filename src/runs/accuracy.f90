@@ -9,7 +9,8 @@ module lagrangia_accuracy
     !! magnitude, than the worst of all; and none more than its changes, where these do not shrink
     !! at all. The second run starts a last digit away: where the motion lingers at a saddle, three
     !! runs from one state would linger alike. Nor is an error less than the distance to the closed
-    !! form, or to the end by another method.
+    !! form, or to the end by another method; with a tolerance, which steps follow unevenly, that
+    !! distance and the latest change.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
     use lagrangia_cross_check, only: by_closed_form, by_other_method
@@ -22,6 +23,7 @@ module lagrangia_accuracy
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
     use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_part, only: part_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
@@ -29,12 +31,14 @@ module lagrangia_accuracy
     use lagrangia_trajectory_plan, only: plan_steps, trajectory_plan_t
     implicit none (type, external)
     private
-    public :: estimate, plan_finer, state_accuracy
+    public :: estimate, plan_finer, share_of_run, state_accuracy
 
     character(*), parameter :: context = "the run that estimates the error"
     real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
     real(dp), parameter :: margin = 4.0_dp        !! error of the other end over its distance
     real(dp), parameter :: caution = 5.0_dp       !! where the changes don't shrink as they should
+    real(dp), parameter :: share_of_run = 0.125_dp
+    !! what the run itself is of all that is computed; then come twice and four times that
 
 contains
 
@@ -67,18 +71,25 @@ contains
         type(trajectory_plan_t), intent(inout) :: finer(2)   !! of `plan_finer`; used up
         type(final_state_t), intent(in) :: seen                  !! of the run itself,
         integer(i8), intent(in) :: steps                     !! and how many it took
-        class(observer_t), pointer, intent(in) :: progress   !! hears the runs go on; may be null
+        class(observer_t), pointer, intent(in) :: progress
+        !! hears the runs go on, from `share_of_run`; may be null
         type(final_value_t), allocatable, intent(out) :: state(:)
         !! (time,) coordinates, velocities
         type(error_t), allocatable, intent(out) :: error  !! why a finer run failed
         type(final_state_t) :: half, quarter
         real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
+        type(part_t), target :: part
         real(dp) :: shrinking, step
         logical :: known
 
         step = (seen%t - scene%t0)/max(steps, 1_i8)
-        call run_finer(finer(1), system, 0.5_dp*step, progress, half, shrinking, error)
-        if (.not. allocated(error)) call run_finer(finer(2), system, 0.25_dp*step, progress, &
+        part%whole => progress
+        part%from = share_of_run
+        part%to = 3.0_dp*share_of_run
+        call run_finer(finer(1), system, 0.5_dp*step, part, half, shrinking, error)
+        part%from = part%to
+        part%to = 7.0_dp*share_of_run
+        if (.not. allocated(error)) call run_finer(finer(2), system, 0.25_dp*step, part, &
                                                    quarter, shrinking, error)
         if (allocated(error)) then
             call error%add_context(context)
@@ -98,8 +109,12 @@ contains
                                   rounding + rounding_of_clock(system, seen, most(1)))
         call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
                              other, known)
-        if (known) state%error = agreement(first, second, third, other, most, &
-                                                 shrinking) + rounding
+        if (known) then
+            state%error = agreement(first, second, third, other, most, shrinking)
+            if (scene%tolerance > 0.0_dp) state%error = max(state%error, abs(first - other) &
+                                                            + abs(second - third))
+            state%error = state%error + rounding
+        end if
         call by_closed_form(scene, system, seen, closed_form, other, known)
         if (known) state%error = max(state%error, abs(first - other))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
@@ -226,7 +241,7 @@ contains
         type(trajectory_plan_t), intent(inout) :: plan
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: longest  !! step of a method that chooses them, s
-        class(observer_t), pointer, intent(in) :: progress
+        class(observer_t), target, intent(inout) :: progress  !! hears how far it is
         type(final_state_t), target, intent(inout) :: seen
         real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
         type(error_t), allocatable, intent(out) :: error
@@ -238,9 +253,9 @@ contains
             method%longest = longest
         end select
         observers(1)%item => seen
-        if (associated(progress)) observers(2)%item => progress
-        call drive(system, plan%integrator, plan%times, plan%events, &
-                   observers(:merge(2, 1, associated(progress))), plan%q, plan%v, t, error)
+        observers(2)%item => progress
+        call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, plan%v, &
+                   t, error)
         shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
         if (plan%times%samples == 0) shrinking = 2.0_dp**plan%integrator%order
     end subroutine run_finer

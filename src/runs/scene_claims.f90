@@ -47,7 +47,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! names both owners
         character(:), allocatable :: owner, path
 
-        call refuse_output(scene, error)
+        call refuse_output(scene%output, error)
         if (allocated(error)) return
         owner = trim(scene%name)
         path = data_path(folder, trim(scene%output), format)

@@ -1,6 +1,6 @@
 module lagrangia_scene_run
     !! One run of a scene, as planned, to its data files, scripts and row of the scorecard.
-    use lagrangia_accuracy, only: state_accuracy
+    use lagrangia_accuracy, only: share_of_run, state_accuracy
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_final_state, only: final_state_t
@@ -10,6 +10,7 @@ module lagrangia_scene_run
     use lagrangia_methods, only: exact
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: outcome_t
+    use lagrangia_part, only: part_t
     use lagrangia_reduced_motion, only: reduced_motion_t
     use lagrangia_run_files, only: abandon_files, finish_files, keep_parts, open_files
     use lagrangia_run_plan, only: run_plan_t
@@ -53,6 +54,7 @@ contains
         type(outcome_t), intent(inout) :: outcome
         type(error_t), allocatable, intent(out) :: error
         type(final_state_t), target :: seen
+        type(part_t), target :: part
         type(observer_box_t) :: observers(5)
         type(error_t), allocatable :: file_error
         logical :: complete
@@ -67,11 +69,13 @@ contains
             end if
             n = 0
             call join(seen)
-            if (allocated(plan%record%second_run)) plan%record%second_run%watcher => progress
+            part%whole => progress
+            if (scene%error_estimate) part%to = share_of_run
+            if (allocated(plan%record%second_run)) plan%record%second_run%watcher => part
             if (size(plan%record%columns%items) > 0) call join(plan%record)
             if (scene%period_of /= "") call join(plan%period)
             if (size(plan%trajectory%events) > 0) call join(plan%event_record)
-            if (associated(progress)) call join(progress)
+            if (associated(progress)) call join(part)
             call timed_run(plan, seen, observers(:n), outcome, error)
             complete = .not. allocated(error)
             if (scene%error_estimate .and. complete) call state_accuracy(plan%settled, system, &

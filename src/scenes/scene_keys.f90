@@ -231,14 +231,14 @@ contains
             "name below the output folder is needed: "//good_names, error)
     end subroutine read_columns
 
-    pure subroutine refuse_output(scene, error)
+    pure subroutine refuse_output(name, error)
         !! Without an output the data files have the scene's name, which may be none for them. To be
         !! asked before they are written.
-        type(scene_t), intent(in) :: scene  !! as `read_scene` gives it
+        character(*), intent(in) :: name  !! output of a scene, as `read_scene` gives it
         type(error_t), allocatable, intent(out) :: error  !! it is none
 
-        if (bad_output(trim(scene%output))) call fail(error, "the data files of a scene have "// &
-            "its name, and "//quoted(trim(scene%output))//" is none for them: "//good_names// &
+        if (bad_output(trim(name))) call fail(error, "the data files of a scene have "// &
+            "its name, and "//quoted(trim(name))//" is none for them: "//good_names// &
             ", no - in front; give the scene an output, or its file another name")
     end subroutine refuse_output
 
