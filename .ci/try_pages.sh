@@ -111,6 +111,16 @@ graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a 
     done <.ci/graded_lines.txt
 }
 
+own() { # derivation and modes of each line of .ci/own_systems.txt, `q = ... ;; &lagrangian ;; parameters`
+    local line
+    while IFS= read -r line; do
+        printf "&scene system = 'own', dt = 0.01, duration = 1.0, %s /\n" "${line%% ;; *}" >"$work/own.nml"
+        printf '&%s %s /\n' lagrangian "$(sed 's/^.* ;; \(.*\) ;; .*$/\1/' <<<"$line")" own "${line##* ;; }" >>"$work/own.nml"
+        echo "$line"
+        for words in derive modes; do "$program" $words "$work/own.nml" 2>&1 | sed -e "s,$work/,," -e "/^LAPACK: /d" -e "s/^/    /"; done
+    done <.ci/own_systems.txt | plain
+}
+
 systems=$("$program" list systems | awk '{ print $1 }')
 for system in $systems atwood_lift double_pendulum_formulas; do page plain describe "$system"; done
 for system in $systems; do page plain modes "$system"; done
@@ -174,6 +184,7 @@ page plain describe scene
 page measured stress
 keep refused words < <(refused)
 keep graded lines < <(graded)
+keep own systems < <(own)
 page plain describe hanging_chain --set hanging_chain%n=1
 page plain describe spring_pendulum
 page plain describe sphere

@@ -176,7 +176,9 @@ contains
         call squared("sqrt(l x)^2/sqrt(m)^4", "l x/m^2")
         call squared("sqrt(l + sqrt(m)^2)^4", "(l + m)^2")
         call squared("sqrt(x^2)", "sqrt(x^2)")
-        call squared("(l^2 - x^2)^(1/2)", "(l^2 - x^2)^(1/2)")
+        call squared("(l^2 - x^2)^(1/2)", "sqrt(l^2 - x^2)")
+        call squared("(l^2 - x^2)^(1/3)", "(l^2 - x^2)^(1/3)")
+        call squared("m*1^(3/2)", "m")
     contains
         subroutine squared(text, expected)
             character(*), intent(in) :: text, expected

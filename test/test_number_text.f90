@@ -77,6 +77,9 @@ contains
         call assertEqual("-1.2346E+100", scientific(-1.23456e100_dp, 5))
         call assertEqual("0.0", fixed(0.0_dp, 1))
         call assertEqual("-0.0120", fixed(-0.012_dp, 4))
+        call assertEqual("0.0E+00", scientific(-0.0_dp, 2), "a zero has no sign")
+        call assertEqual("0.00", fixed(-0.004_dp, 2), "nor what is rounded to one")
+        call assertEqual("-0.01", fixed(-0.006_dp, 2))
     end subroutine cells_never_overflow
 
     subroutine a_csv_row_has_commas()

@@ -14,14 +14,14 @@ contains
 
     pure function scientific(value, digits) result(text)
         !! `1.2E-09`: so many significant digits, and as many of the exponent as it has, but two at
-        !! least; never asterisks.
+        !! least; never asterisks, and no sign of a zero.
         real(dp), intent(in) :: value  !! any double
         integer, intent(in) :: digits  !! 1 to 17
         character(:), allocatable :: text
         character(32) :: buffer, layout
 
         write (layout, "(ss, a, i0, a)") "(ss, es32.", digits - 1, "e2)"
-        write (buffer, layout) value
+        write (buffer, layout) value + 0.0_dp     ! -0.0 + 0.0 = 0.0
         if (index(buffer, "*") > 0) then          ! three digits of exponent
             write (layout, "(ss, a, i0, a)") "(ss, es32.", digits - 1, "e3)"
             write (buffer, layout) value
@@ -31,7 +31,7 @@ contains
 
     pure function fixed(value, decimals) result(text)
         !! `-0.0120`: so many digits behind the point, as many before it as there are; never
-        !! asterisks.
+        !! asterisks, and no sign where all digits are 0.
         real(dp), intent(in) :: value    !! any double
         integer, intent(in) :: decimals  !! 0 to 17
         character(:), allocatable :: text
@@ -41,6 +41,7 @@ contains
         write (layout, "(ss, a, i0, a)") "(ss, f330.", decimals, ")"
         write (buffer, layout) value
         text = trim(adjustl(buffer))
+        if (verify(text, "-0.") == 0) text = text(verify(text, "-"):)
     end function fixed
 
     pure function rounded(value, digits) result(text)

@@ -185,15 +185,18 @@ contains
     end subroutine raised
 
     pure subroutine root_of(self, base, exponent, p)
-        !! Any power: of a whole exponent as above, of a fraction an atom, else exp(y log(x)).
+        !! Any power: of a whole exponent as above, of a half a square root, of another fraction an
+        !! atom, else exp(y log(x)).
         class(algebra_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: base, exponent
         type(polynomial_t), intent(out) :: p
         type(polynomial_t) :: logarithm
         integer :: atom
 
-        if (exponent%terms == 0) then
+        if (exponent%terms == 0 .or. base == whole_polynomial(1)) then
             p = whole_polynomial(1)
+        else if (exponent == number_polynomial(ratio(1_i8, 2_i8))) then
+            call self%function_of(f_sqrt, base, p)
         else if (.not. exponent%is_number()) then
             call self%function_of(f_log, base, logarithm)
             call self%function_of(f_exp, exponent*logarithm, p)
@@ -304,8 +307,9 @@ contains
             d = inner
             return
         case (atom_root)
-            call self%inverse(argument, other)
-            outer = number_polynomial(self%atoms(atom)%exponent)*atom_power(atom, 1)*other
+            outer = number_polynomial(self%atoms(atom)%exponent)
+            call self%root_of(argument, outer - whole_polynomial(1), other)
+            outer = outer*other
         case default
             select case (self%atoms(atom)%which)
             case (f_abs); call self%function_of(f_sgn, argument, outer)

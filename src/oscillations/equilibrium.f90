@@ -75,8 +75,25 @@ contains
         end if
         call fail(error, "not an equilibrium of "//trim(d%name)//": the force on "// &
                   trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
-                  trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
+                  trim(force_unit(trim(d%coordinates(worst)%unit)))//"; "//near)
     end subroutine settle
+
+    pure function force_unit(unit) result(text)
+        !! Of the force along a coordinate in this unit: J over it.
+        character(*), intent(in) :: unit  !! as the scene has it
+        character(16) :: text
+
+        select case (unit)
+        case ("m")
+            text = "N"
+        case ("rad")
+            text = "N m"
+        case ("1")
+            text = "J"
+        case default
+            text = "J/"//unit
+        end select
+    end function force_unit
 
     pure function is_resolved(system, q) result(yes)
         !! Are the numbers near `q` so close that K is the same there? Of an angle of 1e16 rad the
