@@ -179,6 +179,9 @@ contains
         call squared("(l^2 - x^2)^(1/2)", "sqrt(l^2 - x^2)")
         call squared("(l^2 - x^2)^(1/3)", "(l^2 - x^2)^(1/3)")
         call squared("m*1^(3/2)", "m")
+        call squared("x (l + x)^(-1/2)", "x/sqrt(l + x)")
+        call squared("x (l + x)^(-3/2)", "x/((l + x) sqrt(l + x))")
+        call squared("x (l + x)^(-1/3)", "x (l + x)^(-1/3)")
     contains
         subroutine squared(text, expected)
             character(*), intent(in) :: text, expected

@@ -185,26 +185,31 @@ contains
     end subroutine raised
 
     pure subroutine root_of(self, base, exponent, p)
-        !! Any power: of a whole exponent as above, of a half a square root, of another fraction an
-        !! atom, else exp(y log(x)).
+        !! Any power: of a whole exponent as above, of a half, or any number of halves below zero,
+        !! by a square root, of another fraction an atom, else exp(y log(x)).
         class(algebra_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: base, exponent
         type(polynomial_t), intent(out) :: p
-        type(polynomial_t) :: logarithm
+        type(polynomial_t) :: other
         integer :: atom
 
         if (exponent%terms == 0 .or. base == whole_polynomial(1)) then
             p = whole_polynomial(1)
-        else if (exponent == number_polynomial(ratio(1_i8, 2_i8))) then
-            call self%function_of(f_sqrt, base, p)
         else if (.not. exponent%is_number()) then
-            call self%function_of(f_log, base, logarithm)
-            call self%function_of(f_exp, exponent*logarithm, p)
-        else if (exponent%coefficient(1)%is_whole()) then
-            call self%raised(base, int(exponent%coefficient(1)%numerator), p)
+            call self%function_of(f_log, base, other)
+            call self%function_of(f_exp, exponent*other, p)
         else
-            call self%atom_number(atom_root, 0, exponent%coefficient(1), base, atom)
-            p = atom_power(atom, 1)
+            associate (e => exponent%coefficient(1))
+                if (e%is_whole()) then
+                    call self%raised(base, int(e%numerator), p)
+                else if (e%is_exact() .and. e%denominator == 2 .and. e%numerator <= 1) then
+                    call self%function_of(f_sqrt, base, other)
+                    call self%raised(other, int(e%numerator), p)
+                else
+                    call self%atom_number(atom_root, 0, e, base, atom)
+                    p = atom_power(atom, 1)
+                end if
+            end associate
         end if
     end subroutine root_of
 

@@ -420,8 +420,10 @@ contains
         type(number_t), intent(in) :: number
         type(expression_t) :: e
 
-        e = constant(number%value)
-        if (number%is_exact()) e = whole_number(number%numerator)/whole_number(number%denominator)
+        e = constant(abs(number%value))
+        if (number%is_exact()) e = whole_number(abs(number%numerator)) &
+                                   /whole_number(number%denominator)
+        if (number%value < 0.0_dp) e = -e
     end function number_expression
 
     pure recursive subroutine multiply(e, factor)
