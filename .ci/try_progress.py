@@ -113,13 +113,13 @@ def same_json(folder, words):
 
 LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hanging_chain", "--set", "hanging_chain%n=40"],
         ["modes", "hanging_chain", "--set", "hanging_chain%n=200", "--plot"],
-        ["run", "pendulum", "--set", "scene%duration=8000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=1200"],
+        ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=1200"],
         ["bench", "sweep"], ["report"], ["--plot"])
 with tempfile.TemporaryDirectory() as home:
     for command in LONG:
         examine(home, command)
     silence(home, ["stress", "mass_ratios"])
-    silence(home, ["run", "pendulum", "--set", "scene%duration=8000", "--plot"])
+    silence(home, ["run", "pendulum", "--set", "scene%duration=4000", "--plot"])
     dumb(home, ["stress", "mass_ratios"])
     same_json(home, ["stress", "mass_ratios", "--json"])
 print(f"{len(LONG)} long commands, {claims.failed} failed")

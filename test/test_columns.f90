@@ -189,6 +189,14 @@ contains
                      "unknown column 'x_dt'; did you mean 'x_dot'?")
         call refused(system, [character(8) :: "velocity"], 1, &
                      "unknown column 'velocity'; did you mean 'x_dot'?")
+        call refused(system, [character(8) :: "speed"], 1, &
+                     "unknown column 'speed'; did you mean 'x_dot'?")
+        call refused(system, [character(8) :: "alpha"], 1, &
+                     "unknown column 'alpha'; did you mean 'x_ddot'?")
+        call refused(system, [character(8) :: "position"], 1, &
+                     "unknown column 'position'; did you mean 'x'?")
+        call refused(system, [character(8) :: "time"], 1, &
+                     "unknown column 'time'; did you mean 't'?")
         call refused(system, [character(8) :: "pressure"], 1, &
                      "unknown column 'pressure'; oscillator has t, x, x_dot, x_ddot, energy, "// &
                      "energy_drift, force, p_x, x_mass")

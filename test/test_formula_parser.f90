@@ -291,6 +291,12 @@ contains
         call is_refused("ln(x)", "column 1: unknown function 'ln'; did you mean 'log'?")
         call is_refused("Cos(x)", "column 1: unknown function 'Cos'; did you mean 'cos'?")
         call is_refused("arctan(x)", "column 1: unknown function 'arctan'; did you mean 'atan'?")
+        call is_refused("tg(x)", "column 1: unknown function 'tg'; did you mean 'tan'?")
+        call is_refused("sen(x)", "column 1: unknown function 'sen'; did you mean 'sin'?")
+        call is_refused("root(x)", "column 1: unknown function 'root'; did you mean 'sqrt'?")
+        call is_refused("ctg(x)", "column 1: unknown function 'ctg'; did you mean '1/tan'?")
+        call is_refused("sec(x)", "column 1: unknown function 'sec'; did you mean '1/cos'?")
+        call is_refused("csc(x)", "column 1: unknown function 'csc'; did you mean '1/sin'?")
         call is_refused("bessel(x)", "column 1: unknown function 'bessel'; there are abs, "// &
                         "atan, "// &
                         "cos, cosh, exp, log, sgn, sin, sinh, sqrt, tan, tanh, acos, asin")

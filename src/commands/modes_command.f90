@@ -260,9 +260,12 @@ contains
     subroutine put_shapes(modes)
         !! One a line; of a mode that turns, what goes as \(\sin\omega t\) on a second line.
         type(modes_t), intent(in) :: modes
+        real(dp) :: least
         integer :: j
 
+        least = 4.0_dp*epsilon(least)
         if (allocated(modes%quadrature)) then
+            least = 16*size(modes%omega2)*epsilon(least)  ! of a matrix that is not symmetric
             call put_line("shapes (a + i b) exp(i omega t), a and b a line each, u^+ M u = 1")
         else
             call put_line("shapes, one a line, u^T M u = 1")
@@ -282,7 +285,7 @@ contains
             do i = 1, size(u)
                 row(19*i - 16:) = number(u(i))
                 ! beside the others of the same weight it is rounding
-                if (abs(u(i))*sqrt(modes%mass(i, i)) < 4.0_dp*epsilon(1.0_dp)) row(19*i - 16:) = "0"
+                if (abs(u(i))*sqrt(modes%mass(i, i)) < least) row(19*i - 16:) = "0"
             end do
             call put_line(trim(row))
         end subroutine put_shape
