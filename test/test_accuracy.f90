@@ -2,7 +2,7 @@ module test_accuracy
     !! What a run says of its error, beside the truth.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
                      assertLessThan, assertLessThanOrEqual
-    use lagrangia_accuracy, only: estimate
+    use lagrangia_accuracy, only: agreement, estimate
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
@@ -38,6 +38,7 @@ contains
         call suite%addTest(TestMethod("repeated_rounding_is_seen", repeated_rounding_is_seen))
         call suite%addTest(TestMethod("what_does_not_shrink_is_not_trusted", &
                                       what_does_not_shrink_is_not_trusted))
+        call suite%addTest(TestMethod("the_latest_change_counts", the_latest_change_counts))
     end function accuracy_suite
 
     subroutine fixed_steps_know_their_error()
@@ -104,6 +105,20 @@ contains
                              4.0_dp*epsilon(most), "warily")
         end do
     end subroutine what_does_not_shrink_is_not_trusted
+
+    subroutine the_latest_change_counts()
+        !! The other end may be the third run's by chance. With a tolerance the error is the
+        !! distance to it and the change before, with steps that halve the distance alone.
+        real(dp), parameter :: first(2) = [64.0_dp, 8.0_dp], second(2) = [2.0_dp, -1.0_dp]
+        real(dp), parameter :: other(2) = [0.0_dp, 0.0_dp], most(2) = 100.0_dp
+
+        call assertEqual([64.0_dp, 8.0_dp], agreement(first, second, other, other, most, &
+                         16.0_dp, .false.), 1e-12_dp, "steps that halve")
+        call assertEqual([66.0_dp, 9.0_dp], agreement(first, second, other, other, most, &
+                         16.0_dp, .true.), 1e-12_dp, "a tolerance")
+        call assertEqual([72.0_dp, 16.0_dp], agreement(first, second, [0.0_dp, -2.0_dp], other, &
+                         most, 16.0_dp, .true.), 1e-12_dp, "four times the other end's distance")
+    end subroutine the_latest_change_counts
 
     subroutine check_method(name, adaptive, shortest, longest, only_digits, systems, draws)
         !! Random scenes of every solved system that the method takes. The error of a state

@@ -1,7 +1,7 @@
 module lagrangia_equilibrium
     !! Places where a system can rest, and L to second order about them.
     use lagrangia_derivative, only: derivative
-    use lagrangia_description, only: description_t, sizes_of_places
+    use lagrangia_description, only: description_t, sizes_of_places, unit_over
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t, operator(+)
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
@@ -75,25 +75,8 @@ contains
         end if
         call fail(error, "not an equilibrium of "//trim(d%name)//": the force on "// &
                   trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
-                  trim(force_unit(trim(d%coordinates(worst)%unit)))//"; "//near)
+                  trim(unit_over(trim(d%coordinates(worst)%unit), "J", "N", "N m"))//"; "//near)
     end subroutine settle
-
-    pure function force_unit(unit) result(text)
-        !! Of the force along a coordinate in this unit: J over it.
-        character(*), intent(in) :: unit  !! as the scene has it
-        character(16) :: text
-
-        select case (unit)
-        case ("m")
-            text = "N"
-        case ("rad")
-            text = "N m"
-        case ("1")
-            text = "J"
-        case default
-            text = "J/"//unit
-        end select
-    end function force_unit
 
     pure function is_resolved(system, q) result(yes)
         !! Are the numbers near `q` so close that K is the same there? Of an angle of 1e16 rad the

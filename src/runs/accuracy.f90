@@ -31,7 +31,7 @@ module lagrangia_accuracy
     use lagrangia_trajectory_plan, only: plan_steps, trajectory_plan_t
     implicit none (type, external)
     private
-    public :: estimate, plan_finer, share_of_run, state_accuracy
+    public :: agreement, estimate, plan_finer, share_of_run, state_accuracy
 
     character(*), parameter :: context = "the run that estimates the error"
     real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
@@ -109,12 +109,8 @@ contains
                                   rounding + rounding_of_clock(system, seen, most(1)))
         call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
                              other, known)
-        if (known) then
-            state%error = agreement(first, second, third, other, most, shrinking)
-            if (scene%tolerance > 0.0_dp) state%error = max(state%error, abs(first - other) &
-                                                            + abs(second - third))
-            state%error = state%error + rounding
-        end if
+        if (known) state%error = agreement(first, second, third, other, most, shrinking, &
+                                           scene%tolerance > 0.0_dp) + rounding
         call by_closed_form(scene, system, seen, closed_form, other, known)
         if (known) state%error = max(state%error, abs(first - other))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
@@ -186,15 +182,17 @@ contains
         if (system%time_dependent) near%t0 = scene%t0*(1.0_dp + sense*epsilon(1.0_dp))
     end subroutine nudge
 
-    pure function agreement(first, second, third, other, most, shrinking) result(error)
+    pure function agreement(first, second, third, other, most, shrinking, uneven) result(error)
         !! Of the first run, each number by itself: its distance to the other end, and that one's
         !! error, which is taken to be `margin` times its distance to the third run, the worst of
         !! all numbers. Two ends may be near by chance: what the change \(d_2\) from the second run
         !! to the third is more than \(|d_1|/\)`shrinking` is noise, and counts as such a distance.
+        !! Of steps that follow a tolerance that error is no less than the number's own \(d_2\).
         real(dp), intent(in) :: first(:), second(:), third(:)  !! ends of the three runs
         real(dp), intent(in) :: other(:)                       !! by the other method
         real(dp), intent(in) :: most(:)                        !! largest magnitudes
         real(dp), intent(in) :: shrinking  !! of the error from one run to the next, expected
+        logical, intent(in) :: uneven      !! steps that follow a tolerance
         real(dp) :: error(size(first))
         real(dp) :: unit(size(first)), d1, d2, apart
 
@@ -202,7 +200,9 @@ contains
         d1 = maxval(abs(first - second)/unit)
         d2 = maxval(abs(second - third)/unit)
         apart = max(maxval(abs(third - other)/unit), d2 - d1/shrinking)
-        error = abs(first - other) + margin*most*apart
+        error = margin*most*apart
+        if (uneven) error = max(error, abs(second - third))
+        error = abs(first - other) + error
     end function agreement
 
     subroutine refine(scene, system, k, fine)

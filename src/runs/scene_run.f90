@@ -75,7 +75,7 @@ contains
             if (size(plan%record%columns%items) > 0) call join(plan%record)
             if (scene%period_of /= "") call join(plan%period)
             if (size(plan%trajectory%events) > 0) call join(plan%event_record)
-            if (associated(progress)) call join(part)
+            call join(part)
             call timed_run(plan, seen, observers(:n), outcome, error)
             complete = .not. allocated(error)
             if (scene%error_estimate .and. complete) call state_accuracy(plan%settled, system, &

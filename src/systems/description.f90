@@ -11,7 +11,7 @@ module lagrangia_description
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
     public :: add_zeros, check_parameter, constraint_text, default_values, described_by, &
-              sizes_of_places, value_names, velocity_names
+              sizes_of_places, unit_over, value_names, velocity_names
     public :: constraint_length, figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
@@ -392,4 +392,20 @@ contains
         all = 0.0_dp
         all(:given) = values
     end subroutine add_zeros
+
+    pure function unit_over(unit, energy, of_length, of_angle) result(text)
+        !! Of what belongs to a coordinate: that of an energy, or of an action, over the
+        !! coordinate's; of a length and an angle as it is called then.
+        character(*), intent(in) :: unit                 !! the coordinate's
+        character(*), intent(in) :: energy               !! over a coordinate that is a number
+        character(*), intent(in) :: of_length, of_angle  !! over m and rad
+        character(16) :: text
+
+        select case (unit)
+        case ("m"); text = of_length
+        case ("rad"); text = of_angle
+        case ("1"); text = energy
+        case default; text = energy//"/"//unit
+        end select
+    end function unit_over
 end module lagrangia_description

@@ -8,7 +8,7 @@ module lagrangia_written_description
     use lagrangia_written_formulas, only: written_formulas_t
     implicit none (type, external)
     private
-    public :: collect_constants, momentum_unit, state_formulas, state_places
+    public :: collect_constants, state_formulas, state_places
 
 contains
 
@@ -136,21 +136,4 @@ contains
             constants(n + i) = e%equilibrium(i)
         end do
     end subroutine collect_constants
-
-    pure function momentum_unit(unit) result(text)
-        !! Of the momentum that belongs to a coordinate in this unit: J s over it.
-        character(*), intent(in) :: unit  !! as the scene has it
-        character(16) :: text
-
-        select case (unit)
-        case ("m")
-            text = "kg m/s"
-        case ("rad")
-            text = "kg m^2/s"
-        case ("1")
-            text = "J s"
-        case default
-            text = "J s/"//unit
-        end select
-    end function momentum_unit
 end module lagrangia_written_description

@@ -4,7 +4,7 @@ module lagrangia_written_system
     !! The formulas are read once; where the parameters are set, they are compiled with these
     !! numbers in them, to programs of t, the coordinates and the velocities, in this order.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: description_t, quantity, quantity_t
+    use lagrangia_description, only: description_t, quantity, quantity_t, unit_over
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
@@ -13,8 +13,7 @@ module lagrangia_written_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrangian_system, only: find_structure, lagrangian_system_t
     use lagrangia_magnitude, only: magnitude
-    use lagrangia_written_description, only: collect_constants, momentum_unit, state_formulas, &
-                                             state_places
+    use lagrangia_written_description, only: collect_constants, state_formulas, state_places
     use lagrangia_written_equations, only: write_equations
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
@@ -116,8 +115,8 @@ contains
         n = size(d%coordinates)
         do i = 1, n
             associate (q => d%coordinates(i))
-                items(i) = quantity("p_"//trim(q%name), momentum_unit(q%unit), &
-                                    "momentum dL/d"//trim(q%name)//"_dot")
+                items(i) = quantity("p_"//trim(q%name), unit_over(q%unit, "J s", "kg m/s", &
+                                    "kg m^2/s"), "momentum dL/d"//trim(q%name)//"_dot")
                 if (.not. allocated(self%cyclic_coordinates)) cycle
                 if (.not. self%cyclic_coordinates(i)) cycle
                 items(i)%conserved = .true.
