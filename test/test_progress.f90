@@ -129,6 +129,8 @@ contains
             associate (told => listener%shares)
                 call assertTrue(all(told(2:) >= told(:size(told) - 1)), estimated//": never back")
                 call assertEqual(0.5_dp*run, told(51), 1e-12_dp, estimated//": half of the run")
+                if (run < 1.0_dp) call assertTrue(any(abs(told - 0.375_dp) < 1e-12_dp), &
+                                                  "the end of the first finer run")
                 call assertEqual(last, told(size(told)), 1e-12_dp, estimated//": the end")
             end associate
         end subroutine check
