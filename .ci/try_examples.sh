@@ -46,12 +46,7 @@ against_installed() { # against_installed NAME: a copy of this example that link
         { tail -n 20 "$work/err"; exit 1; }
 }
 
-# Normal modes of somebody's own matrices, with the library as a dependency
-fpm build -C data/examples/normal_modes >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }
-run "$(ls -t data/examples/normal_modes/build/gfortran_*/app/three_masses | head -n 1)"
-check "three masses: status 0, a line a mode" eval '[ $status -eq 0 ] && [ "$(wc -l <"$work/out")" -eq 3 ]'
-check "three masses: omega^2 = 2 - sqrt 2, 2, 2 + sqrt 2" near 1e-14 \
-    "0.58578643762690495 2 3.41421356237309505" "$(awk '{ print $3 }' "$work/out")"
+# Normal modes of somebody's own matrices, with the library as a dependency: .ci/any_x86_64.sh
 for name in solve spherical_pendulum; do
     check "$name: the library is a dependency as in normal_modes" cmp \
         <(sed -n '/^link/p; /^\[dependencies\]/,/^$/p' data/examples/normal_modes/fpm.toml) \

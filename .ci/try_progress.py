@@ -23,11 +23,21 @@ LINE = re.compile(re.escape(WIPE + "\x1b[?7l") + r"([^\r\n\x1b]*)" + re.escape("
 LEFT = re.compile(r"^[\w ,]+: \d+ %, \d+ (s|min|h|days|years)(, [0-9.E+]+ \w+/s)?, \d+ (s|min|h|days|years) left$")
 END = re.compile(r" (0|100) %")  # before the first part is done nobody knows what is left, and behind the last one nothing is
 ENOUGH = 2.0      # s that may pass in silence
-LATE = 3.0        # s more, for a busy machine and parts of the work that are long themselves
+LATE = 3.0        # s more, for parts of the work that are long themselves
+HANGS = 60.0      # s of silence, whoever else has the machine
+TICKS = os.sysconf("SC_CLK_TCK")
+
+
+def worked(pid):
+    """How long processors have worked for a process, and for those that it has waited for."""
+    with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
+        return sum(map(int, file.read().rpartition(")")[2].split()[11:15]))/TICKS
 
 
 def on_terminal(words, folder, stdout=None, kind="xterm"):
-    """What comes out of a terminal of that kind, each piece with its time, and how long the command took."""
+    """What comes out of a terminal of that kind, each piece with its time and that of processors, and the status.
+
+    The last piece is the end."""
     pid, terminal = pty.fork()
     if pid == 0:
         os.chdir(folder)
@@ -45,30 +55,41 @@ def on_terminal(words, folder, stdout=None, kind="xterm"):
             got = b""
         if not got:
             break
-        pieces.append((time.monotonic() - begun, got.decode(errors="replace")))
+        pieces.append((time.monotonic() - begun, worked(pid), got.decode(errors="replace")))
     if not ready:
         os.kill(pid, 9)
     os.close(terminal)
-    return pieces, os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), time.monotonic() - begun
+    _, status, used = os.wait4(pid, 0)
+    pieces.append((time.monotonic() - begun, used.ru_utime + used.ru_stime, ""))
+    return pieces, os.waitstatus_to_exitcode(status)
 
 
-def examine(folder, words, again=True):
+def silence_of(times):
+    """The longest between two of these; a command that had no processor meanwhile could not speak."""
+    gaps = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(times, times[1:])]
+    return max(min(gap) if gap[0] < HANGS else gap[0] for gap in gaps)
+
+
+def words_in(pieces):
+    return "".join(text for _, _, text in pieces)
+
+
+def examine(folder, words):
     what = "lagrangia " + " ".join(words)
-    pieces, status, seconds = on_terminal(words, folder)
+    pieces, status = on_terminal(words, folder)
+    seconds = pieces[-1][0]
     check(f"{what}: status", status == 0, str(status))
     if seconds < ENOUGH + 1.0:
-        return print(f"not tried: {what} takes {seconds:.1f} s only")
-    told = [(when, line) for when, text in pieces for line in LINE.findall(text) if line]
+        return check(f"{what}: takes long enough to be tried", False, f"{seconds:.1f} s")
+    told = [(piece[:2], line) for piece in pieces for line in LINE.findall(piece[2]) if line]
     left = [when for when, line in told if LEFT.match(line)]
-    silent = max((b - a for a, b in zip([0.0] + left, left + [seconds])), default=seconds)
-    if again and silent >= ENOUGH + LATE:  # something else may have had the machine: twice it has not
-        return examine(folder, words, again=False)
+    silent = silence_of([(0.0, 0.0), *left, pieces[-1][:2]])
     check(f"{what}: how long it will still take", left)
     check(f"{what}: is said again and again", silent < ENOUGH + LATE, f"silent for {silent:.1f} of {seconds:.1f} s")
+    print(f"        {seconds:.0f} s, of processors {pieces[-1][1]:.0f} s, silent for {silent:.1f} s at most")
     strange = [line for _, line in told if "%" in line and not LEFT.match(line) and not END.search(line)]
     check(f"{what}: the form of a line", not strange, str(strange[:3]))
-    text = "".join(text for _, text in pieces)
-    return check(f"{what}: is wiped in the end", wiped(text), repr(text[-200:]))
+    return check(f"{what}: is wiped in the end", wiped(words_in(pieces)), repr(words_in(pieces)[-200:]))
 
 
 def wiped(text):
@@ -79,8 +100,8 @@ def wiped(text):
 
 def silence(folder, words):
     what = "lagrangia " + " ".join(words)
-    pieces, status, seconds = on_terminal([*words, "--quiet"], folder)
-    text = "".join(text for _, text in pieces)
+    pieces, status = on_terminal([*words, "--quiet"], folder)
+    text = words_in(pieces)
     check(f"{what} --quiet: says nothing", status == 0 and text == "", repr(text[:200]))
     done = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, check=False)
     check(f"{what}: no progress off a terminal", "\x1b" not in done.stderr + done.stdout and "\r" not in done.stderr,
@@ -91,8 +112,8 @@ def dumb(folder, words):
     """Where a line cannot take the place of another, each stays where it is: no escape sequence, one announcement at most."""
     for kind in ("dumb", ""):
         what = f"TERM={kind} lagrangia {' '.join(words)}"
-        pieces, status, seconds = on_terminal(words, folder, kind=kind)
-        text = "".join(text for _, text in pieces)
+        pieces, status = on_terminal(words, folder, kind=kind)
+        text = words_in(pieces)
         check(f"{what}: no escape sequence", status == 0 and "\x1b" not in text and "\r" not in text.replace("\r\n", ""),
               repr(text[:200]))
 
@@ -101,26 +122,26 @@ def same_json(folder, words):
     """stdout is a file and stderr the terminal; then both are the terminal, which shows valid JSON."""
     what = "lagrangia " + " ".join(words)
     path = os.path.join(folder, "json")
-    pieces, status, seconds = on_terminal(words, folder, path)
-    check(f"{what}: progress beside JSON", LINE.search("".join(text for _, text in pieces)) is not None)
+    pieces, status = on_terminal(words, folder, path)
+    check(f"{what}: progress beside JSON", LINE.search(words_in(pieces)) is not None)
     with open(path, encoding="utf-8") as file:
         rows = json.load(file)
-    pieces, status, seconds = on_terminal(words, folder)
-    text = "".join(text for _, text in pieces)
+    pieces, status = on_terminal(words, folder)
+    text = words_in(pieces)
     shown = json.loads(LINE.sub("", text).replace("\r\n", "\n").replace(WIPE, "").replace("\x1b[?7l\x1b[?7h", ""))
     check(f"{what}: as many rows on a terminal", len(shown) == len(rows))
 
 
 LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hanging_chain", "--set", "hanging_chain%n=40"],
-        ["modes", "hanging_chain", "--set", "hanging_chain%n=200", "--plot"],
-        ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=1200"],
-        ["bench", "sweep"], ["report"], ["--plot"])
+        ["modes", "hanging_chain", "--set", "hanging_chain%n=150", "--plot"],
+        ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=3000"],
+        ["bench", "sweep", "--quick"], ["report"], ["--plot"])
 with tempfile.TemporaryDirectory() as home:
     for command in LONG:
         examine(home, command)
     silence(home, ["stress", "mass_ratios"])
     silence(home, ["run", "pendulum", "--set", "scene%duration=4000", "--plot"])
-    dumb(home, ["stress", "mass_ratios"])
-    same_json(home, ["stress", "mass_ratios", "--json"])
+    dumb(home, ["bench", "sweep", "--quick"])
+    same_json(home, ["bench", "sweep", "--quick", "--json"])
 print(f"{len(LONG)} long commands, {claims.failed} failed")
 sys.exit(1 if claims.failed else 0)

@@ -235,7 +235,7 @@ contains
     end subroutine flags_are_judged_both_ways
 
     subroutine no_false_alarm_over_twelve_decades()
-        !! `.ci/extremes` draws a hundred of each.
+        !! `.ci/extremes` draws more of them.
         character(32), allocatable :: names(:)
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error

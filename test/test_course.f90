@@ -10,13 +10,14 @@ module test_course
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
-    use lagrangia_principles, only: find_first_line, principle_names, principle_report
+    use lagrangia_principles, only: find_first_line, principle_names
     use lagrangia_registry, only: check_line, commands, options
     use lagrangia_report, only: citation_t, report_t
     use lagrangia_system, only: system_t
     use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: join, to_text, word_t
     use lagrangia_vocabulary, only: words_of
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: course_suite
@@ -231,7 +232,7 @@ contains
 
         allocate (names, source=principle_names())
         do i = 1, size(names)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             call assertFalse(allocated(error), trim(names(i)))
             if (anyExceptions()) return
             call course_has(names(i), report%citations)

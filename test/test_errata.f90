@@ -7,9 +7,10 @@ module test_errata
     use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
                                        line_length, quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
-    use lagrangia_principles, only: principle_names, principle_report
+    use lagrangia_principles, only: principle_names
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: errata_suite
@@ -105,7 +106,7 @@ contains
         end do
         allocate (names, source=principle_names())
         do i = 1, size(names)
-            call principle_report(trim(names(i)), page, error)
+            call page_once(trim(names(i)), page, error)
             do k = 1, size(page%citations)
                 associate (cited => page%citations(k))
                     lines%quoted = lines%quoted .or. (lines%scan == cited%scan .and. &

@@ -6,10 +6,11 @@ module test_page_controls
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_principles, only: principle_names, principle_report
+    use lagrangia_principles, only: principle_names
     use lagrangia_report, only: report_t
     use lagrangia_test_potentials, only: test_charge_t
     use lagrangia_text, only: to_text
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: page_controls_suite
@@ -44,7 +45,7 @@ contains
 
         bound = rounding
         if (present(within)) bound = within
-        call principle_report(page, report, error)
+        call page_once(page, report, error)
         call assertFalse(allocated(error), page)
         if (anyExceptions()) return
         found = 0
@@ -146,7 +147,7 @@ contains
             type(error_t), allocatable :: error
             integer :: at
 
-            call principle_report("virtual-work", report, error)
+            call page_once("virtual-work", report, error)
             call assertFalse(allocated(error), "virtual-work")
             if (anyExceptions()) return
             at = findloc(report%rows%name == name, .true., 1)
@@ -205,7 +206,7 @@ contains
         integer :: at, i, k
         logical :: ok
 
-        call principle_report("virtual-work", report, error)
+        call page_once("virtual-work", report, error)
         call assertFalse(allocated(error), "virtual-work")
         if (anyExceptions()) return
         call charge%fields(t, q, slope, induced, b)
@@ -247,7 +248,7 @@ contains
         allocate (names, source=principle_names())
         counts = ""
         do i = 1, size(names)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             counts = counts//trim(names(i))//" "//to_text(count(report%rows%control))//" "
         end do
         call assertEqual("constraints 5 virtual-work 5 reactions 4 vakonomic 3 dalembert 2 "// &

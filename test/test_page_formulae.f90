@@ -10,9 +10,9 @@ module test_page_formulae
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
-    use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: page_formulae_suite
@@ -146,7 +146,7 @@ contains
         integer :: i, at
         logical :: ok
 
-        call principle_report("gauge", report, error)
+        call page_once("gauge", report, error)
         call assertFalse(allocated(error), "gauge")
         if (anyExceptions()) return
         call put(letters, "q1 q2 q3 t", [q, t])
@@ -173,7 +173,7 @@ contains
         real(dp) :: time
         integer :: i, read_of
 
-        call principle_report("action", report, error)
+        call page_once("action", report, error)
         call assertFalse(allocated(error), "action")
         if (anyExceptions()) return
         call put(letters, "m w xa xb a pi", [0.5_dp, omega, 1.0_dp, 0.5_dp, 0.3_dp, pi])
@@ -248,7 +248,7 @@ contains
         type(report_t) :: report
         type(error_t), allocatable :: error
 
-        call principle_report(page, report, error)
+        call page_once(page, report, error)
         call assertFalse(allocated(error), page)
         if (anyExceptions()) return
         if (present(within)) then

@@ -6,8 +6,8 @@ module test_page_headings
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lecture_constraints, only: examples
-    use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: page_headings_suite
@@ -32,7 +32,7 @@ contains
         type(report_t), intent(out) :: report
         type(error_t), allocatable :: error
 
-        call principle_report("constraints", report, error)
+        call page_once("constraints", report, error)
         call assertFalse(allocated(error), "constraints")
     end subroutine get_page
 

@@ -10,6 +10,7 @@ module test_principles
     use lagrangia_principles, only: principle_names, principle_report, principles
     use lagrangia_report, only: report_t
     use lagrangia_text, only: join, to_text
+    use page_rows, only: page_once
     implicit none (type, external)
     private
     public :: principles_suite
@@ -128,7 +129,7 @@ contains
 
         allocate (names, source=principle_names())
         do i = 1, size(names)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             call assertFalse(allocated(error), trim(names(i)))
             if (anyExceptions()) return
             do k = 1, size(report%rows)
@@ -163,7 +164,7 @@ contains
         real(dp), parameter :: pi = acos(-1.0_dp), times(2) = [1.0_dp, 2.0_dp]
         integer :: i, k
 
-        call principle_report("action", report, error)
+        call page_once("action", report, error)
         call assertFalse(allocated(error), "action")
         if (anyExceptions()) return
         associate (values => report%picture%values)
@@ -210,7 +211,7 @@ contains
         integer :: i, k
 
         do i = 1, size(expected)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             text = ""
             associate (picture => report%picture)
                 if (allocated(picture%names)) then
@@ -235,7 +236,7 @@ contains
         real(dp) :: u
         integer :: k
 
-        call principle_report("least-time", report, error)
+        call page_once("least-time", report, error)
         call assertFalse(allocated(error), "least-time")
         if (anyExceptions()) return
         call assertEqual(101, size(report%picture%values, 2), "samples")
@@ -261,7 +262,7 @@ contains
         real(dp) :: s(4), x, y
         integer :: k
 
-        call principle_report("constraints", report, error)
+        call page_once("constraints", report, error)
         call assertFalse(allocated(error), "constraints")
         if (anyExceptions()) return
         associate (values => report%picture%values)
@@ -283,7 +284,7 @@ contains
         type(report_t) :: report
         type(error_t), allocatable :: error
 
-        call principle_report("gauge", report, error)
+        call page_once("gauge", report, error)
         call assertFalse(allocated(error), "gauge")
         if (anyExceptions()) return
         call assertEqual(1, count(report%rows%name == "F = m l^2 theta theta_dot: see below"))
@@ -305,7 +306,7 @@ contains
         call assertEqual(names_of_pages(), join(names, " "), "principles")
         next = 1
         do i = 1, size(names)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             first = 1
             do k = 2, size(report%rows) + 1
                 if (k <= size(report%rows)) then
@@ -357,7 +358,7 @@ contains
         if (anyExceptions()) return
         allocate (names, source=principle_names())
         do i = 1, size(names)
-            call principle_report(trim(names(i)), report, error)
+            call page_once(trim(names(i)), report, error)
             call assertTrue(size(report%citations) > 0, trim(names(i))//": a line of the notes")
             do k = 1, size(report%citations)
                 associate (cited => report%citations(k))

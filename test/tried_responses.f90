@@ -246,7 +246,7 @@ contains
         type(group_t), intent(out) :: group
         type(random_t) :: random
         class(system_t), allocatable :: system
-        type(samples_t) :: samples
+        type(samples_t) :: samples, printed(built_in)
         type(error_t), allocatable :: error
         type(description_t) :: d
         character(:), allocatable :: statements, statement
@@ -260,8 +260,9 @@ contains
                 call system%describe(d)
                 call printed_statements(system, statements)
                 if (statements == "") cycle
-                call new_samples(system, statements, none, samples, error)
-                call change_one(statements, samples, random, with_slip, statement)
+                if (.not. allocated(printed(i)%values)) call new_samples( &
+                    system, statements, none, printed(i), error)
+                call change_one(statements, printed(i), random, with_slip, statement)
                 if (statement == "") cycle
                 if (with_slip) then
                     call new_samples(system, statement, none, samples, error)
@@ -280,7 +281,7 @@ contains
         type(group_t), intent(out) :: group
         type(random_t) :: random
         class(system_t), allocatable :: system
-        type(samples_t) :: samples
+        type(samples_t) :: samples, printed(built_in)
         type(error_t), allocatable :: error
         type(description_t) :: d
         character(:), allocatable :: statements, first, second
@@ -296,13 +297,14 @@ contains
                 if (system%constraints > 0) cycle
                 call printed_statements(system, statements)
                 if (statements == "") cycle
-                call new_samples(system, statements, none, samples, error)
-                call change_one(statements, samples, random, .true., first)
+                if (.not. allocated(printed(i)%values)) call new_samples( &
+                    system, statements, none, printed(i), error)
+                call change_one(statements, printed(i), random, .true., first)
                 if (first == "") cycle
                 if (follows) then
-                    call change_one(first//line_feed, samples, random, .false., second)
+                    call change_one(first//line_feed, printed(i), random, .false., second)
                 else
-                    call change_one(statements, samples, random, .true., second)
+                    call change_one(statements, printed(i), random, .true., second)
                 end if
                 if (second == "" .or. second == first) cycle
                 the_same = index(second, trim(first(index(first, "= ") + 2:))) > 0

@@ -109,12 +109,14 @@ contains
         class(symbols_t), intent(in) :: self
         character(*), intent(in) :: name  !! as in a formula; the case counts
         integer :: which
+        character(name_length) :: whole
 
         which = 0
         if (.not. allocated(self%names)) return
+        if (len_trim(name) > name_length) return
+        whole = name  ! texts of one length are compared at once
         do which = size(self%names), 1, -1
-            if (self%names(which)(1:1) /= name(1:min(1, len(name)))) cycle  ! most differ there
-            if (self%names(which) == name) return
+            if (self%names(which) == whole) return
         end do
     end function find
 

@@ -37,8 +37,8 @@ contains
             do j = 1, n
                 left = left + motion%mass(i, j)*symbol(first + j)
             end do
-            text = formula_text(simplified(left, names), names)//" = "// &
-                   formula_text(simplified(forces(i), names), names)
+            text = formula_text(simplified(left, names), names)
+            text = text//" = "//formula_text(simplified(forces(i), names), names)
             if (len(text) > formula_length) then
                 deallocate (d%equations)
                 return
