@@ -1,6 +1,6 @@
 module lagrangia_verdict
     !! What is said about a statement: its verdict, and of a wrong one a state with both sides.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_explanation, only: explanation_t, explanation_text
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_text, only: typed_name
@@ -119,14 +119,18 @@ contains
     end function telling_digits
 
     pure function brief(value, significant) result(text)
-        !! Four significant digits, or as many as are said.
-        real(dp), intent(in) :: value               !! finite
+        !! Four significant digits, or as many as are said; in words what is no number, such as the
+        !! ratio of two amplitudes of which the second is 0.
+        real(dp), intent(in) :: value                 !! any
         integer, intent(in), optional :: significant  !! digits
         character(:), allocatable :: text
         integer :: digits, n
 
         n = 4
         if (present(significant)) n = significant
+        text = merge("undefined", "infinite ", ieee_is_nan(value))
+        text = trim(text)
+        if (.not. ieee_is_finite(value)) return
         text = "0"
         if (abs(value) <= 0.0_dp) return
         text = scientific(value, n)

@@ -32,13 +32,14 @@ contains
         end do
         d%energy = formula_text(simplified(motion%energy, names), names)
         allocate (d%equations(n))
+        text = ""
         do i = 1, n
             left = forces(i) - motion%right(i)
             do j = 1, n
                 left = left + motion%mass(i, j)*symbol(first + j)
             end do
-            text = formula_text(simplified(left, names), names)
-            text = text//" = "//formula_text(simplified(forces(i), names), names)
+            text = formula_text(simplified(left, names), names)//" = "// &
+                   formula_text(simplified(forces(i), names), names)
             if (len(text) > formula_length) then
                 deallocate (d%equations)
                 return
