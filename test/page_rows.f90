@@ -3,7 +3,7 @@ module page_rows
     use funit, only: anyExceptions, assertEqual, assertFalse
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_principles, only: principle_report
+    use lagrangia_principles, only: principle_names, principle_report
     use lagrangia_report, only: report_t
     implicit none (type, external)
     private
@@ -11,8 +11,7 @@ module page_rows
 
     type :: known_page_t
         !! A page that a test has asked for before.
-        character(:), allocatable :: name
-        type(report_t) :: page
+        type(report_t), allocatable :: page
     end type known_page_t
 
 contains
@@ -26,14 +25,19 @@ contains
         type(known_page_t), allocatable, save :: known(:)
         integer :: i
 
-        if (.not. allocated(known)) allocate (known(0))
-        do i = 1, size(known)
-            if (known(i)%name /= name) cycle
-            page = known(i)%page
+        if (.not. allocated(known)) allocate (known(size(principle_names())))
+        i = findloc(principle_names() == name, .true., 1)
+        if (i == 0) then
+            call principle_report(name, page, error)
             return
-        end do
-        call principle_report(name, page, error)
-        if (.not. allocated(error)) known = [known, known_page_t(name, page)]
+        end if
+        if (.not. allocated(known(i)%page)) then
+            allocate (known(i)%page)
+            call principle_report(name, known(i)%page, error)
+            if (allocated(error)) deallocate (known(i)%page)
+            if (allocated(error)) return
+        end if
+        page = known(i)%page
     end subroutine page_once
 
     subroutine new_page(name, page)
