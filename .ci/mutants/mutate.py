@@ -338,10 +338,10 @@ def suite_times(unit, build):
     return times
 
 
-def refuse(noticed):
-    """End the program if something is noticed where there is no mutant."""
+def refuse(noticed, printed=""):
+    """End the program if something is noticed where there is no mutant, with the end of what was printed."""
     if noticed:
-        sys.exit(f"mutate.py: nothing begun: without any mutant this fails: {noticed}")
+        sys.exit(printed[-4000:] + f"mutate.py: nothing begun: without any mutant this fails: {noticed}")
 
 
 def noticed_by_tests(unit, build, source, times):
@@ -358,17 +358,16 @@ def noticed_by_tests(unit, build, source, times):
 
 def noticed_by_users(program, root, work, limits, shells):
     """The first of the things that users run which does not end well, with a Tab in `shells` or
-    without; "" if all do."""
+    without, and all that it printed; "" and "" if all do."""
     scripts = ["try_pages.sh"] + ["try_shells.sh"]*shells + ["try_commands.sh"]
     for command in ([program, "--output", os.path.join(work, "data")],
                     *(["bash", ".ci/" + script, program] for script in scripts)):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
-            if claim:
-                return claim.group(1)
-            return " ".join(command[1:2]) if command[1][0] != "-" else "the main job"
-    return ""
+            name = " ".join(command[1:2]) if command[1][0] != "-" else "the main job"
+            return claim.group(1) if claim else name, text
+    return "", ""
 
 
 def sites_of(root, only, skip):
@@ -434,7 +433,7 @@ def main():
     times = suite_times(build.link("unit", {}), build)
     if not words.quick:
         used = processor_time()
-        refuse(noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, True))
+        refuse(*noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, True))
         limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
     none = 0  # drawn, and no mutant
@@ -452,7 +451,7 @@ def main():
             by = noticed_by_tests(unit, build, source, times)
             fate = "died" if by else "survived"
             if not by and not words.quick:
-                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source in OF_SHELLS)
+                by, _ = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source in OF_SHELLS)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),
