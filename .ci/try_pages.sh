@@ -11,6 +11,7 @@ accept=
 [ "${*: -1}" = --accept ] && accept=yes && set -- "${@:1:$#-1}"
 program=${1:-$(ls -t build/gfortran_*/app/lagrangia 2>/dev/null | head -n 1)}
 [ -x "$program" ] || { echo "no program: fpm build --profile release"; exit 2; }
+full=$(realpath "$program")
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 pages=.ci/pages
@@ -107,7 +108,7 @@ graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a 
         lines=${line#*: }
         printf 'system: %s\n%s\n' "${line%%: *}" "${lines// ;; /$'\n'}" >"$work/sheet.txt"
         echo "$line"
-        "$program" grade "$work/sheet.txt" 2>&1 | sed -e "s,$work/,," -e 's/^/    /' -e '/: [0-9]* statements\? about /d'
+        (cd "$work" && "$full" grade sheet.txt 2>&1) | sed -e 's/^/    /' -e '/: [0-9]* statements\? about /d'
     done <.ci/graded_lines.txt
 }
 
@@ -117,7 +118,7 @@ own() { # derivation and modes of each line of .ci/own_systems.txt, `q = ... ;; 
         printf "&scene system = 'own', dt = 0.01, duration = 1.0, %s /\n" "${line%% ;; *}" >"$work/own.nml"
         printf '&%s %s /\n' lagrangian "$(sed 's/^.* ;; \(.*\) ;; .*$/\1/' <<<"$line")" own "${line##* ;; }" >>"$work/own.nml"
         echo "$line"
-        for words in derive modes; do "$program" $words "$work/own.nml" 2>&1 | sed -e "s,$work/,," -e "/^LAPACK: /d" -e "s/^/    /"; done
+        for words in derive modes; do (cd "$work" && "$full" $words own.nml 2>&1) | sed -e "/^LAPACK: /d" -e "s/^/    /"; done
     done <.ci/own_systems.txt | plain
 }
 
@@ -161,7 +162,6 @@ for system in skate pendulum_in_x_and_y; do page plain derive "$system" --fortra
     echo "quantities = 'p [kg m/s] momentum = (m_c + m) x_dot + m l theta_dot cos(theta)', equilibrium = '0', '0' /"
     echo "&cart m_c = 1.0, m = 0.5, I = 0.1, R = 0.2, l = 1.0, g = 9.81, b = 0.1, e = 0.0 /"
 } >"$work/cart.nml"
-full=$(realpath "$program")
 keep derive a cart --fortran < <(cd "$work" && "$full" derive cart.nml --fortran 2>&1 | plain)
 for sheet in data/homework/*.txt; do page plain grade "$sheet"; done
 page plain describe pendulum --set pendulum%b=0.1

@@ -4,6 +4,7 @@
 Each command runs in a pseudo-terminal. Within a few seconds there is a line of progress with a percentage and the time
 that is left; it comes again and again; in the end it is wiped. With --quiet, on a
 dumb terminal, and where stderr is none, there is none, and JSON is the same as without a terminal."""
+import glob
 import json
 import os
 import pty
@@ -24,17 +25,40 @@ LEFT = re.compile(r"^[\w ,]+: \d+ %, \d+ (s|min|h|days|years)(, [0-9.E+]+ \w+/s)
 END = re.compile(r" (0|100) %")  # before the first part is done nobody knows what is left, and behind the last one nothing is
 ENOUGH = 2.0      # s that may pass in silence
 LATE = 3.0        # s more, for parts of the work that are long themselves
+LOOK = 0.2        # s between two looks at who has worked
 HANGS = 60.0      # s of silence, whoever else has the machine
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
-def worked(pid):
-    """How long processors have worked for a process, and for those that it has waited for."""
-    with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
-        return sum(map(int, file.read().rpartition(")")[2].split()[11:15]))/TICKS
+def threads_of(session):
+    """The time that a processor has worked for each thread of a session, in seconds, by its number."""
+    times = {}
+    for path in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            if int(open(path, encoding="utf-8", errors="replace").read().rpartition(")")[2].split()[3]) != session:
+                continue
+            for task in glob.glob(path[:-len("stat")] + "task/*/stat"):
+                spent = open(task, encoding="utf-8", errors="replace").read().rpartition(")")[2].split()[11:13]
+                times[task] = sum(map(int, spent))/TICKS
+        except (OSError, ValueError, IndexError):  # it has just ended
+            continue
+    return times
 
 
-def on_terminal(words, folder, stdout=None, kind="xterm"):
+class Work:
+    """How long processors have worked for a session: at each moment the thread counts that had the most of them."""
+
+    def __init__(self, session):
+        self.session, self.times, self.seconds = session, {}, 0.0
+
+    def look(self):
+        now = threads_of(self.session)
+        self.seconds += max((spent - self.times.get(thread, 0.0) for thread, spent in now.items()), default=0.0)
+        self.times = now
+        return self.seconds
+
+
+def on_terminal(words, folder, stdout=None, kind="xterm", program=program):
     """What comes out of a terminal of that kind, each piece with its time and that of processors, and the status.
 
     The last piece is the end."""
@@ -45,22 +69,27 @@ def on_terminal(words, folder, stdout=None, kind="xterm"):
         if stdout:
             os.dup2(os.open(stdout, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), 1)
         os.execv(program, [program, *words])
-    begun = time.monotonic()
+    begun = heard = time.monotonic()
+    work = Work(pid)
     pieces = []
     while True:
-        ready, _, _ = select.select([terminal], [], [], 300)
+        ready, _, _ = select.select([terminal], [], [], LOOK)
+        spent = work.look()
+        if not ready and time.monotonic() - heard < 300.0:
+            continue
         try:
             got = os.read(terminal, 1 << 16) if ready else b""
         except OSError:  # Linux says so that the other end is closed
             got = b""
         if not got:
             break
-        pieces.append((time.monotonic() - begun, worked(pid), got.decode(errors="replace")))
+        heard = time.monotonic()
+        pieces.append((heard - begun, spent, got.decode(errors="replace")))
     if not ready:
         os.kill(pid, 9)
     os.close(terminal)
-    _, status, used = os.wait4(pid, 0)
-    pieces.append((time.monotonic() - begun, used.ru_utime + used.ru_stime, ""))
+    _, status = os.waitpid(pid, 0)
+    pieces.append((time.monotonic() - begun, spent, ""))
     return pieces, os.waitstatus_to_exitcode(status)
 
 
@@ -137,6 +166,8 @@ LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hangi
         ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=3000"],
         ["bench", "sweep", "--quick"], ["report"], ["--plot"])
 with tempfile.TemporaryDirectory() as home:
+    mute, _ = on_terminal(["-c", f"timeout {ENOUGH + LATE + 2} yes >/dev/null"], home, program="/bin/sh")
+    check("a command whose child works in silence is noticed", silence_of([(0.0, 0.0), mute[-1][:2]]) > ENOUGH + LATE, str(mute))
     for command in LONG:
         examine(home, command)
     silence(home, ["stress", "mass_ratios"])

@@ -196,7 +196,8 @@ contains
     end function is_subject
 
     subroutine try_missing_terms(expression, samples, values, library, remark, lacks, is_vague)
-        !! A right term which, some times, perhaps with letters, makes the sum zero.
+        !! A right term which, some times, perhaps with letters, makes the sum zero. Without the
+        !! letters it is named only if it varies with the state: of constants alone, any would do.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
         type(samples_t), intent(in) :: samples            !! know the names
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
@@ -223,7 +224,8 @@ contains
                 lacks = times(needed(1))//formula_text(library(k)%term, samples%symbols)
                 exit
             end if
-            if (remark == "" .and. .not. is_constant(needed)) remark = "a term with "// &
+            if (remark == "" .and. .not. is_constant(needed) .and. &
+                .not. is_steady(term(:, library(k)%term%count))) remark = "a term with "// &
                 formula_text(library(k)%term, samples%symbols)//" is missing"
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
