@@ -236,6 +236,9 @@ class Build:
             sys.exit(text[-3000:])
         self.objects = os.path.dirname(self.newest("app_main.f90.o"))
         self.library = self.newest("liblagrangia.a")
+        if any(os.path.getmtime(place.path) > os.path.getmtime(self.library) for place in os.scandir(self.objects)
+               if place.name.startswith("src_") and place.name.endswith(".o")):
+            sys.exit(f"mutate.py: {self.library} is older than its objects: a build was interrupted; delete it")
         manifest = tomllib.load(open(os.path.join(root, "fpm.toml"), "rb"))
         self.libraries = ["-l" + name for name in manifest["build"]["link"]]
         macros = manifest["preprocess"]["cpp"]["macros"]
