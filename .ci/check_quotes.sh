@@ -37,4 +37,4 @@ for scan in first:000 second:001; do
         bad=$((bad + 1))
     fi
 done
-[ "$count" -eq 105 ] && [ "$bad" -eq 0 ]
+[ "$count" -eq 119 ] && [ "$bad" -eq 0 ]

@@ -84,7 +84,7 @@ contains
             if (len(read_signs) > len(quoted)) cycle
             call assertEqual(quoted(:len(read_signs)), read_signs, slips(i)%id)
         end do
-        call assertEqual(24, total, "signs")
+        call assertEqual(25, total, "signs")
         lost = slip_of("E27")
         call assertEqual(signs_of(trim(lost%reads)), signs_of(trim(lost%derived)), "only dots")
     end subroutine signs_are_those_of_the_quotes

@@ -266,19 +266,19 @@ contains
         !! Who comes second is told.
         type(sweep_store_t) :: first, second
         type(error_t), allocatable :: error
+        character(:), allocatable :: path
 
-        associate (path => "build/test-scratch-store.dat")
-            call first%prepare(path, told, 2, total, size_of_block, error)
-            call first%own_part(1, error)
-            call assertFalse(allocated(error), "the first")
-            call second%prepare(path, told, 2, total, size_of_block, error)
-            call second%own_part(1, error)
-            call assertTrue(allocated(error), "the second")
-            if (allocated(error)) call assertTrue(index(error%message, "at this moment") > 0, &
-                                                  error%message)
-            call second%release()
-            call first%remove()
-        end associate
+        path = new_folder("store")//"/a.dat"
+        call first%prepare(path, told, 2, total, size_of_block, error)
+        call first%own_part(1, error)
+        call assertFalse(allocated(error), "the first")
+        call second%prepare(path, told, 2, total, size_of_block, error)
+        call second%own_part(1, error)
+        call assertTrue(allocated(error), "the second")
+        if (allocated(error)) call assertTrue(index(error%message, "at this moment") > 0, &
+                                              error%message)
+        call second%release()
+        call first%remove()
     end subroutine one_writes_at_a_time
 
     subroutine files_of_other_images_are_read()

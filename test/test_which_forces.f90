@@ -31,7 +31,7 @@ contains
         call check_row(page, "is there a U", "-m gamma v", 0.0_dp, 1.0_dp, 0.0_dp)
         call check_row(page, "is there a U", "(-c y, c x)", 0.0_dp, 1.0_dp, 0.0_dp)
         call check_row(page, "is there a U", "c x^2 cos t", 1.0_dp, 1.0_dp, 0.0_dp)
-        call check_row(page, "work", "a curl", 1.6_dp*pi, 1.6_dp*pi, 1e-12_dp)
+        call check_row(page, "work", "a force with a curl", 1.6_dp*pi, 1.6_dp*pi, 1e-12_dp)
         call check_row(page, "work", "friction", -0.6_dp*pi, -0.6_dp*pi, 1e-12_dp)
         call check_row(page, "damped", "f = exp", 0.3_dp*exp(0.78_dp), 0.3_dp*exp(0.78_dp), &
                        1e-14_dp)

@@ -31,7 +31,7 @@ contains
         logical :: coupled, linear
         integer :: i, k
 
-        self%next_heading = "solved for the accelerations"
+        self%next_heading = "solved for the accelerations"//self%in_flight()
         allocate (mass(self%n, self%n), f(self%n))
         linear = .true.
         coupled = .false.

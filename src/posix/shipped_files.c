@@ -879,8 +879,8 @@ static const char *const files[][2] = {
         "  T = 'm/2 (x_dot^2 + y_dot^2) + m W (x y_dot - y x_dot)'\n"
         "  V = 'm g/(2 l) (x^2 + y^2)'\n"
         "  quantities = 'L_z [kg m^2/s] canonical angular momentum about the vertical = m (x y_dot - y x_dot) + m W (x^2 + y^2)',\n"
-        "    'x_still [m] seen by who does not turn = x cos(W t) - y sin(W t)',\n"
-        "    'y_still [m] seen by who does not turn = x sin(W t) + y cos(W t)'\n"
+        "    'x_still [m] seen by one who does not turn = x cos(W t) - y sin(W t)',\n"
+        "    'y_still [m] seen by one who does not turn = x sin(W t) + y cos(W t)'\n"
         "  positions = 'bob: x, y, (x^2 + y^2)/(2 l)'\n"
         "/\n"
         "&foucault m = 1.0, l = 2.0, g = 9.81, day = 60.0, latitude = 0.8525933396 /\n"
@@ -1177,7 +1177,7 @@ static const char *const files[][2] = {
         "&rolling_disk m = 1.0, r = 0.3, incline = 0.2 /\n"
     },
     {"data/scenes/rotating_frame.nml",
-        "! Thrown at the opposite rim of a turntable, as it is seen by who turns with it: the Coriolis force 2 m omega v bends\n"
+        "! Thrown at the opposite rim of a turntable, as one who turns with it sees it: the Coriolis force 2 m omega v bends\n"
         "! the path to the right, and it misses. Seen from outside it is a straight line at constant speed.\n"
         "&scene\n"
         "  title = 'Coriolis: a free particle in a rotating frame, and its straight line outside'\n"
@@ -1197,7 +1197,7 @@ static const char *const files[][2] = {
         "/\n"
         "&lagrangian\n"
         "  coordinates = 'x [m] in the frame that turns', 'y [m] in the frame that turns'\n"
-        "  parameters = 'm [kg] mass of the particle', 'omega [rad/s] of the frame, against the clock'\n"
+        "  parameters = 'm [kg] mass of the particle', 'omega [rad/s] of the frame, anticlockwise'\n"
         "  domain = 'm > 0'\n"
         "  definitions = 'C = cos(omega t)', 'S = sin(omega t)', 'u = x_dot - omega y', 'w = y_dot + omega x'\n"
         "  T = 'm/2 (u^2 + w^2)'\n"
@@ -1393,7 +1393,7 @@ static const char *const files[][2] = {
     },
     {"data/scenes/symmetric_top.nml",
         "! A toy top of 0.1 kg, spun at 150 rad/s and let go at 60 degrees without precession: it falls, and its tip draws\n"
-        "! cusps. If it were very fast, it would go round with m g s/(I3 omega_3) = 4.9 rad/s on the mean, and nod with\n"
+        "! cusps. If it were very fast, it would go round with m g s/(I3 omega_3) = 4.9 rad/s on average, and nod with\n"
         "! I3 omega_3/I1 = 50 rad/s; as it is, with 5.07 and 46.2 rad/s.\n"
         "&scene\n"
         "  title = 'Symmetric top: precession and nutation with cusps'\n"

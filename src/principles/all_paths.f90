@@ -1,6 +1,6 @@
 module lagrangia_all_paths
-    !! All paths of a pendulum between two events: 0 at first, 1 rad a time T later. Each makes S
-    !! stationary; how many directions lower it, Morse's index, is the number of conjugate points
+    !! All paths of a pendulum between two events, 0 at first, 1 rad a time T later, that do not go
+    !! over the top. Each makes S stationary; how many directions lower it, Morse's index, is the number of conjugate points
     !! on the way. Descent finds the least only, and where there is none it runs away.
     use lagrangia_action_paths, only: extrapolated_action, oscillator_action, straight
     use lagrangia_discrete_action, only: action_of, expand_action, find_path, lowest_variation, &
@@ -52,7 +52,8 @@ contains
         if (.not. allocated(error)) call find_rates(rates, found, error)
         if (allocated(error)) return
         paths = 0.0_dp
-        call report%section("pendulum, 0 to 1 rad in T = 9/w0: the paths that there are")
+        call report%section("pendulum, 0 to 1 rad in T = 9/w0: all paths that do not "// &
+                            "go over the top")
         do i = 1, found
             path(1, :) = closed_path(rates(i))
             call find_path(pendulum, 0.0_dp, time/n, path, error)

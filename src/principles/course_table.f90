@@ -107,7 +107,7 @@ contains
                  "(\dot{p}_{i} - F_{i}) \delta x_{i} = \sum_{i}^{3m} (\dot{p}_{i} - F_{i}) "// &
                  "\underbrace{\sum_{i}^{3m-k}", &
                  "sum of m x_ddot dx/dq becomes d/dt dT/dq_dot - dT/dq, term by term", &
-                 "principle dalembert")
+                 "principle dalembert; errata E32")
         call add(course, "I", 45, 50, &
                  "- identify the octernal forces", &
                  "the recipe: forces, coordinates, T in these coordinates", &
@@ -115,7 +115,7 @@ contains
         call add(course, "I", 51, 53, &
                  "- compute generalized forces as", &
                  "the recipe: Q from the forces", &
-                 "principle virtual-work")
+                 "principle virtual-work; errata E30")
         call add(course, "I", 54, 54, &
                  "- solve the equations!", &
                  "the recipe: the motion", &
@@ -207,7 +207,7 @@ contains
                  "derive cart_pendulum --slip E1; errata E3")
         call add(course, "I", 148, 154, &
                  "Small \ 0 : \cos 0 = 1 , \sin 0 = 0", &
-                 "small theta: linear equations", &
+                 "small theta: cos(theta) = 1, sin(theta) = theta", &
                  "modes cart_pendulum; errata E4")
         call add(course, "I", 156, 160, &
                  "0 \sim A \omega^2, \quad O^2 \sim A^2 \omega^2, \quad O^2 O \sim A^3 "// &

@@ -15,7 +15,7 @@ module lagrangia_errata_ledger
     public :: line_length
 
     integer, parameter :: line_length = 120
-    integer, parameter :: most_quotes = 5
+    integer, parameter :: most_quotes = 8
 
     character(11), parameter :: kind_lecture = "lecture"  !! the mathematics or a claim is wrong
     character(11), parameter :: kind_scan = "scan"        !! letters, dots: the scanner's
@@ -59,7 +59,9 @@ contains
                   quote_t("I", 140, "- m_2 g \ell \sin \theta = 0"), &
                   quote_t("I", 142, "m_2 l \ddot{0} + m_2 l \ddot{x} \cos 0 - m_2 g l \sin 0 "// &
                                     "= 0"), &
-                  quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x} - m_2 g l 0 = 0")], &
+                  quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x} - m_2 g l 0 = 0"), &
+                  quote_t("I", 152, "l d + \ddot{x} - g l = 0"), &
+                  quote_t("I", 154, "l d + \ddot{x} - g l = 0")], &
                  "l theta_ddot + x_ddot cos(theta) - g sin(theta) = 0", &
                  "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0", &
                  "omega^2 = -(m1 + m2) g/(m1 l) < 0: a hanging pendulum that falls up", &
@@ -94,16 +96,19 @@ contains
                                              "\cos 0"))
         call add("E5", kind_scan, "cart-pendulum, letters and dots", &
                  [quote_t("I", 138, "(m_1 + m_2) \dot{x} + m_2 l \dot{\theta} \cos \theta"), &
+                  quote_t("I", 138, "\frac{\partial L}{\partial \pi}"), &
                   quote_t("I", 140, "m_3 \ell \ddot{x} \cos \theta"), &
                   quote_t("I", 140, "\frac{\partial}{\partial t} \left(\frac{\partial "// &
                                     "L}{\partial \dot{\theta}} \right)"), &
+                  quote_t("I", 140, "\cdot \frac{\partial L}{\partial 0}"), &
                   quote_t("I", 140, "\frac{m_2 \ell \dot{x} \theta \sin \theta}{m_2 \ell "// &
                                     "\dot{x} \theta \sin \theta}"), &
-                  quote_t("I", 152, "l d + \ddot{x} - g l = 0")], &
-                 "(m1 + m2) x_dot + m2 l theta_dot cos(theta); m3; round d/dt; a term over "// &
-                 "itself; l d, g l", &
-                 "x_ddot, theta_ddot; m2; straight d/dt; that term is struck out, and "// &
-                 "cancels; l theta_ddot, g theta", &
+                  quote_t("I", 152, "l d + \ddot{x} - g l = 0"), &
+                  quote_t("I", 154, "l d + \ddot{x} - g l = 0")], &
+                 "(m1 + m2) x_dot + m2 l theta_dot cos(theta); dL/dpi; m3; round d/dt; a "// &
+                 "term over itself; l d, g l", &
+                 "x_ddot, theta_ddot; dL/dx; m2; straight d/dt, - dL/dtheta; struck out; "// &
+                 "l theta_ddot, g theta: E1's line", &
                  "", &
                  elsewhere=quote_t("I", 142, "(m_1 + m_2) \ddot{x} + m_2 l \ddot{0} \cos 0"))
         call add("E6", kind_terminology, "cart-pendulum, the frequency", &
@@ -138,7 +143,8 @@ contains
                  [quote_t("I", 84, "If $\overline{B}=\overline{\delta} \to "// &
                                    "\overline{F}=-\overline{V}\varphi$")], &
                  "if B = 0 then F = -grad(phi)", &
-                 "F = -e grad(phi); where B = 0, A is a gradient, and dA/dt gauge: it joins phi", &
+                 "F = -e grad(phi); B = 0 in a region without holes: A is a gradient, dA/dt "// &
+                 "joins phi", &
                  "every charge would be 1 C", &
                  principle="virtual-work", system="charged_particle", &
                  wrong="m x_ddot = E_x", right="m x_ddot = e E_x", &
@@ -161,7 +167,12 @@ contains
         call add("E13", kind_scan, "full differential", &
                  [quote_t("I", 3, "$dx_j = \sum_{i=1}^{\infty} \frac{dx_i}{dq_i} dq_i + "// &
                                   "\frac{\partial z_i}{\partial t} dt"), &
-                  quote_t("I", 3, "j = 1, ..., 3m - k$")], &
+                  quote_t("I", 3, "j = 1, ..., 3m - k$"), &
+                  quote_t("I", 30, "3m ("), &
+                  quote_t("I", 36, "3m $\frac{\partial x_{i}}{\partial q_{i}}"), &
+                  quote_t("I", 37, "\int_{0}^{3m}"), &
+                  quote_t("I", 38, "\int_{0}^{3m}"), &
+                  quote_t("I", 41, "\sum_{i}^{3m}")], &
                  "dx_j = sum of dx_i/dq_i dq_i + dz_i/dt dt; j = 1, ..., 3m - k", &
                  "dx_j = sum over i of dx_j/dq_i dq_i, + dx_j/dt dt; i = 1, ..., 3n - k; j = "// &
                  "1, ..., 3n", &
@@ -187,7 +198,8 @@ contains
                  [quote_t("II", 5, "reflection of light always takes the shortest path"), &
                   quote_t("II", 6, "by a path that requires the least time")], &
                  "light always takes the shortest path, or the least time", &
-                 "a stationary one: in a concave mirror the longest, in an ellipse all are alike", &
+                 "a stationary one: from a diameter of a concave mirror the longest; in an "// &
+                 "ellipse all alike", &
                  "no image in a concave mirror", &
                  principle="least-time")
         call add("E17", kind_scan, "Maupertuis", &
@@ -274,6 +286,10 @@ contains
         call add("E27", kind_scan, "Lagrange's equations, lost dots", &
                  [quote_t("I", 67, "\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - "// &
                                    "\frac{\partial (T-V)}{\partial q_j} = 0"), &
+                  quote_t("I", 68, "\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - "// &
+                                   "\frac{\partial (T-V)}{\partial q_j} = 0"), &
+                  quote_t("I", 69, "\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - "// &
+                                   "\frac{\partial (T-V)}{\partial q_j} = 0"), &
                   quote_t("I", 66, "\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - "// &
                                    "\frac{\partial T}{\partial q_j}")], &
                  "d/dt (dT/dq_j) - d(T - V)/dq_j = 0", &
@@ -281,20 +297,57 @@ contains
                  "", &
                  elsewhere=quote_t("II", 58, "\frac{d}{dt} \frac{\partial "// &
                                              "\mathcal{L}}{\partial \dot{q}_j} = 0"))
-        call add("E28", kind_scan, "holonomic constraint, letters", &
-                 [quote_t("I", 9, "holonomic constraint: $x_i = x_i (\{q, f, t\}) = c_i$")], &
-                 "x_i = x_i({q, f, t}) = c_i", &
-                 "f_i = f_i({x_j}, t) = c_i", &
+        call add("E28", kind_scan, "coordinates and constraints, letters", &
+                 [quote_t("I", 9, "holonomic constraint: $x_i = x_i (\{q, f, t\}) = c_i$"), &
+                  quote_t("I", 3, "x_{j} = x_{j}(\{q_{i}, f_{j}, f_{j}\}")], &
+                 "x_i = x_i({q, f, t}) = c_i; x_j = x_j({q_i, f_j, f_j})", &
+                 "f_i = f_i({x_j}, t) = c_i; x_j = x_j({q_i}, t)", &
                  "", &
                  elsewhere=quote_t("I", 111, "f_{i}(\{x_{i}\},t)"))
         call add("E29", kind_scan, "cart-pendulum, small oscillation", &
                  [quote_t("I", 158, "O(f) = A \omega \cos \omega I"), &
+                  quote_t("I", 160, "0 \sim A \omega^2"), &
                   quote_t("I", 160, "O^2 O \sim A^3 \omega^2"), &
                   quote_t("I", 162, "(m_1 + m_2) g O + m_1 l O = O")], &
-                 "O(f) = A omega cos(omega I); O^2 O ~ A^3 omega^2; (m1 + m2) g O + m1 l O = O", &
-                 "theta_dot = A omega cos(omega t); theta_dot^2 theta; (m1 + m2) g theta + m1 "// &
-                 "l theta_ddot = 0", &
+                 "O(f) = A omega cos(omega I); 0 ~ A omega^2; O^2 O ~ A^3 omega^2; (m1 + m2) "// &
+                 "g O + m1 l O = O", &
+                 "theta_dot = A omega cos(omega t); theta_ddot; theta_dot^2 theta; (m1 + m2) g "// &
+                 "theta + m1 l theta_ddot = 0", &
                  "")
+        call add("E30", kind_scan, "generalized force, the index", &
+                 [quote_t("I", 53, "Q_{i} = \sum_{i} F_{i} \frac{\partial x_{i}}{\partial "// &
+                                   "q_{j}}"), &
+                  quote_t("I", 64, "Q_i = \sum_i F_i \frac{\partial x_i}{\partial q_j}")], &
+                 "Q_i = sum over i of F_i dx_i/dq_j", &
+                 "Q_j = sum over i of F_i dx_i/dq_j", &
+                 "", &
+                 elsewhere=quote_t("I", 65, "Q_j = -\frac{\partial V}{\partial q_j}"))
+        call add("E31", kind_scan, "L + dF/dt, primes and dots", &
+                 [quote_t("I", 101, "\frac{d}{dt}\left(\frac{\partial L}{\partial "// &
+                                    "\dot{q}_{i}}\right) - \frac{\partial L}{\partial "// &
+                                    "q_{i}} ="), &
+                  quote_t("I", 105, "\frac{d}{dt} \frac{\partial}{\partial q_{i}} "// &
+                                    "\frac{dF}{dt}")], &
+                 "d/dt dL/dq_i_dot - dL/dq_i = ...; d/dt d/dq_i dF/dt", &
+                 "d/dt dL'/dq_i_dot - dL'/dq_i = ...; d/dt d/dq_i_dot dF/dt", &
+                 "L would be compared with itself", &
+                 elsewhere=quote_t("I", 101, "\left(\frac{\partial}{\partial "// &
+                                             "\dot{q}_{i}}\frac{dF}{dt}\right)"))
+        call add("E32", kind_scan, "from d'Alembert to Lagrange, letters", &
+                 [quote_t("I", 41, "\partial z_{i}}_{\partial q_{i}}"), &
+                  quote_t("I", 43, "\sum_{i}^{d} \frac{\partial}{\partial t} \partial "// &
+                                   "\dot{q}_{i}^{2}}"), &
+                  quote_t("I", 60, "V(\{x_i\}) = V(\{g_j\}, t)"), &
+                  quote_t("I", 73, "U(q;q;)"), &
+                  quote_t("I", 97, "\hat{O}^2"), &
+                  quote_t("I", 119, "\frac{5}{100}"), &
+                  quote_t("I", 122, "\frac{5}{7}")], &
+                 "dz_i/dq_i; round d/dt, q_i_dot^2; V({g_j}, t); U(q; q;); O^ for theta_dot; 5/7", &
+                 "dx_i/dq_j; d/dt, d/dq_j_dot; V({q_j}, t); U(q_j, q_j_dot); theta_dot; sum "// &
+                 "over j", &
+                 "", &
+                 elsewhere=quote_t("I", 32, "\sum_{j} \frac{\partial x_{i}}{\partial "// &
+                                            "q_{j}} \delta q_{j}"))
     contains
         pure subroutine add(id, kind, subject, quotes, reads, derived, effect, elsewhere, &
                             principle, system, wrong, right, without)

@@ -50,7 +50,7 @@ module lagrangia_principles
         principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
         principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary"), &
         principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path"), &
-        principle_t("all-paths", "every path between two events, its S, its index"), &
+        principle_t("all-paths", "the paths between two events, S and index of each"), &
         principle_t("phase-space", &
                     "H from L, areas that stay (Liouville), periods, neighbours that part"), &
         principle_t("helmholtz", "which forces have an L: Helmholtz' conditions"), &

@@ -80,8 +80,9 @@ contains
         type(growing_t) :: other
         type(oscillator_t) :: plain, twice
         type(euler_lagrange_t) :: terms
-        real(dp) :: a(1), at(2), later(2), one, two
+        real(dp) :: a(1), at(2), later(2), newton, one, two
 
+        newton = m*off(1) + m*gamma*v(1) + k*x(1)
         other%ndof = 1
         other%time_dependent = .true.
         other%m = m
@@ -107,9 +108,10 @@ contains
         call report%equal("is (m x_dot^2 + k x^2)/2 conserved?  [J]", &
                           0.5_dp*(m*later(2)**2 + k*later(1)**2), &
                           0.5_dp*(m*at(2)**2 + k*at(1)**2), rounding, control=.true.)
-        call report%equal("is L' - L a dF/dt?  then 0 off the motion", &
-                          equation(other, t, x, v, off, 1) - (m*off(1) + k*x(1)), 0.0_dp, &
-                          rounding, control=.true.)
+        call report%equal("off: exp(gamma t) (m a + m gamma v + k x) [N]", &
+                          equation(other, t, x, v, off, 1), exp(gamma*t)*newton, rounding)
+        call report%equal("is it that without the factor, m a + ...? [N]", &
+                          equation(other, t, x, v, off, 1), newton, rounding, control=.true.)
         call report%section("L, 2 L and L + 3 J: a factor, a constant")
         call twice%accelerations(0.0_dp, x, v, a)
         call report%equal("2 L: x_ddot  [m/s^2]", a(1), -k/m*x(1), rounding)

@@ -27,7 +27,8 @@ module lagrangia_which_forces
     end type forced_t
 
     character(30), parameter :: forces(5) = [character(30) :: "-grad(x^2 y + cos y)", &
-        "e v x B, B along z", "-m gamma v, friction", "(-c y, c x), a curl", "c x^2 cos t, along x"]
+        "e v x B, B along z", "-m gamma v, friction", "(-c y, c x): it has a curl", &
+        "c x^2 cos t, along x"]
     logical, parameter :: has_one(5) = [.true., .true., .false., .false., .true.]
 
 contains
@@ -146,12 +147,12 @@ contains
         call report%equal("a gradient: none", work_around(1, 1.0_dp), 0.0_dp, rounding)
         call report%equal("a magnetic force: none, v x B is across v", work_around(2, 1.0_dp), &
                           0.0_dp, rounding)
-        call report%equal("a curl: 2 c times the area", work_around(4, 1.0_dp), 2.0_dp*curl*pi, &
-                          rounding)
+        call report%equal("a force with a curl: 2 c times the area", work_around(4, 1.0_dp), &
+                          2.0_dp*curl*pi, rounding)
         call report%equal("friction: -m gamma v^2 times the time", work_around(3, 1.0_dp), &
                           -m*gamma*2.0_dp*pi, rounding)
-        call report%equal("does a curl do no work?", work_around(4, 1.0_dp), 0.0_dp, rounding, &
-                          control=.true.)
+        call report%equal("does a force with a curl do no work?", work_around(4, 1.0_dp), 0.0_dp, &
+                          rounding, control=.true.)
     end subroutine around_circles
 
     subroutine with_a_factor(report)

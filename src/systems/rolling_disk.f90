@@ -32,7 +32,7 @@ module lagrangia_rolling_disk
         real(dp) :: m = 1.0_dp        !! kg
         real(dp) :: r = 0.3_dp        !! m
         real(dp) :: i_roll = 0.0_dp   !! about the axle, kg m^2; `configure` sets \(mR^2/2\)
-        real(dp) :: i_yaw = 0.0_dp    !! about the vertical, kg m^2; `configure` sets \(mR^2/4\)
+        real(dp) :: i_yaw = 0.0_dp    !! about the plane's normal, kg m^2; `configure` sets \(mR^2/4\)
         real(dp) :: g = 9.81_dp       !! m s^-2
         real(dp) :: incline = 0.0_dp  !! of the plane, rad
     contains
@@ -89,7 +89,7 @@ contains
             positive("r", "m", "radius", self%r), &
             nonnegative("i_roll", "kg m^2", "moment of inertia about the axle", i_roll, &
                         computed="m r^2/2"), &
-            positive("i_yaw", "kg m^2", "moment of inertia about the vertical", i_yaw, &
+            positive("i_yaw", "kg m^2", "moment of inertia about the plane's normal", i_yaw, &
                      computed="m r^2/4"), &
             nonnegative("g", "m/s^2", "gravity", self%g), &
             between("incline", "rad", "angle of the plane, down towards +x", self%incline, &
