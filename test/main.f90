@@ -148,6 +148,7 @@ module suites
     use test_printed_notes, only: printed_notes_suite
     use test_processes, only: processes_suite
     use test_progress, only: progress_suite
+    use test_quadratic_eigen, only: quadratic_eigen_suite
     use test_random_draws, only: random_draws_suite
     use test_reactions, only: reactions_suite
     use test_reduced_motion, only: reduced_motion_suite
@@ -274,6 +275,7 @@ contains
         call suite%addTest(course_suite())
         call suite%addTest(dalembert_suite())
         call suite%addTest(small_angle_suite())
+        call suite%addTest(quadratic_eigen_suite())
         call suite%addTest(random_draws_suite())
         call suite%addTest(reactions_suite())
         call suite%addTest(noether_suite())

@@ -8,7 +8,7 @@ module lagrangia_gyroscopic
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: gyroscopic_modes, gyroscopic_ratio, is_steady
+    public :: fast_modes, gyroscopic_modes, gyroscopic_ratio, is_steady
 
     real(dp), parameter :: blur = 1e-7_dp  !! a double eigenvalue splits by the root of epsilon
 
@@ -153,8 +153,9 @@ contains
         !! How many, \(k\), are solved from the matrix itself: the \(k\) that makes
         !! \(\max(\lambda_1/\lambda_k, \lambda_{k+1}/\lambda_n)\) least, if
         !! \(\lambda_k > 2\lambda_{k+1}\); \(n\) where none is better than \(k = n\).
-        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending
-        integer :: fast, k, n
+        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending, (n)
+        integer :: fast                     !! 1 to n
+        integer :: k, n
         real(dp) :: worst, least
 
         n = size(size_of)

@@ -1,0 +1,186 @@
+module test_quadratic_eigen
+    !! Exponents of damped oscillations against closed forms, over many decades of the drag.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
+    implicit none (type, external)
+    private
+    public :: quadratic_eigen_suite
+
+    real(dp), parameter :: rounding = 1e-13_dp
+    real(dp), parameter :: m2(2, 2) = reshape([1.3_dp, 0.0_dp, 0.0_dp, 0.7_dp], [2, 2])
+
+contains
+
+    function quadratic_eigen_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("quadratic_eigen")
+        call suite%addTest(TestMethod("one_coordinate", one_coordinate))
+        call suite%addTest(TestMethod("drag_in_proportion", drag_in_proportion))
+        call suite%addTest(TestMethod("drag_on_one_of_two", drag_on_one_of_two))
+        call suite%addTest(TestMethod("nothing_holds_it", nothing_holds_it))
+        call suite%addTest(TestMethod("drag_and_magnetic_field", drag_and_magnetic_field))
+        call suite%addTest(TestMethod("no_inertia", no_inertia))
+    end function quadratic_eigen_suite
+
+    subroutine solve(m, d, k, lambda)
+        real(dp), intent(in) :: m(:, :), d(:, :), k(:, :)
+        complex(dp), allocatable, intent(out) :: lambda(:)
+        type(error_t), allocatable :: error
+
+        call quadratic_eigenvalues(m, d, k, lambda, error)
+        call assertFalse(allocated(error), message="solved")
+        call assertEqual(2*size(m, 1), size(lambda), message="all of them")
+    end subroutine solve
+
+    subroutine is_there(lambda, expected, message)
+        !! One of them is the expected one, each of its parts to a relative error.
+        complex(dp), intent(in) :: lambda(:), expected
+        character(*), intent(in) :: message
+        integer :: j
+
+        j = minloc(abs(lambda - expected), 1)
+        call assertEqual(real(expected), real(lambda(j)), rounding*abs(real(expected)), &
+                         message=message//": rate")
+        call assertEqual(aimag(expected), aimag(lambda(j)), rounding*abs(aimag(expected)), &
+                         message=message//": frequency")
+    end subroutine is_there
+
+    subroutine two_roots(lambda, m, d, k, message)
+        !! Those of \(m\lambda^2 + d\lambda + k = 0\) are there.
+        complex(dp), intent(in) :: lambda(:)
+        real(dp), intent(in) :: m, d, k
+        character(*), intent(in) :: message
+        real(dp) :: half, root
+
+        half = 0.5_dp*d/m
+        root = sqrt(abs(half - sqrt(k/m)))*sqrt(half + sqrt(k/m))
+        if (half < sqrt(k/m)) then
+            call is_there(lambda, cmplx(-half, root, dp), message)
+            call is_there(lambda, cmplx(-half, -root, dp), message)
+        else
+            call is_there(lambda, cmplx(-half - root, 0.0_dp, dp), message//", fast")
+            call is_there(lambda, cmplx(-k/m/(half + root), 0.0_dp, dp), message//", slow")
+        end if
+    end subroutine two_roots
+
+    subroutine one_coordinate()
+        !! Drags from 1e-18 to 1e18, masses and springs from 1e-6 to 1e6.
+        complex(dp), allocatable :: lambda(:)
+        real(dp) :: m, d, k
+        integer :: i, j
+
+        do i = -18, 18
+            do j = -6, 6, 3
+                m = 1.7_dp*10.0_dp**j
+                k = 0.9_dp*10.0_dp**(-j)
+                d = 1.1_dp*10.0_dp**i
+                call solve(reshape([m], [1, 1]), reshape([d], [1, 1]), reshape([k], [1, 1]), lambda)
+                call two_roots(lambda, m, d, k, "one coordinate")
+            end do
+        end do
+    end subroutine one_coordinate
+
+    subroutine drag_in_proportion()
+        !! \(D = \alpha M + \beta K\) keeps the shapes: each mode by itself.
+        real(dp), parameter :: s(3, 3) = reshape([0.8_dp, 0.2_dp, -0.5_dp, -0.3_dp, 0.9_dp, 0.4_dp, &
+                                                  0.6_dp, -0.1_dp, 0.7_dp], [3, 3])
+        real(dp), parameter :: omega2(3) = [0.7_dp, 2.3_dp, 11.0_dp]
+        real(dp) :: m(3, 3), k(3, 3), alpha, beta
+        complex(dp), allocatable :: lambda(:)
+        integer :: i, j
+
+        m = matmul(transpose(s), s)
+        do j = 1, 3
+            k(j, :) = omega2(j)*s(j, :)
+        end do
+        k = matmul(transpose(s), k)
+        do i = -8, 6
+            alpha = 0.5_dp*10.0_dp**i
+            beta = 0.3_dp*alpha
+            call solve(m, alpha*m + beta*k, k, lambda)
+            do j = 1, 3
+                call two_roots_nearly(lambda, alpha + beta*omega2(j), omega2(j))
+            end do
+        end do
+    contains
+        subroutine two_roots_nearly(values, d, spring)
+            !! To what the condition of s leaves.
+            complex(dp), intent(in) :: values(:)
+            real(dp), intent(in) :: d, spring
+            complex(dp) :: root
+            real(dp) :: slow
+
+            root = sqrt(cmplx(0.25_dp*d**2 - spring, 0.0_dp, dp))
+            root = -0.5_dp*d - root
+            slow = minval(abs(values - spring/root))/abs(spring/root)
+            call assertTrue(minval(abs(values - root)) <= 1e-11_dp*abs(root), message="fast")
+            call assertTrue(slow <= 1e-11_dp, message="slow")
+        end subroutine two_roots_nearly
+    end subroutine drag_in_proportion
+
+    subroutine drag_on_one_of_two()
+        !! Two masses, three springs, a drag of 1e6 kg/s on the first: it creeps at k/d, and the
+        !! second swings with hardly a loss. Expansion in 1/d to second order.
+        real(dp), parameter :: d(2, 2) = reshape([1e6_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2])
+        real(dp), parameter :: k(2, 2) = reshape([5.0_dp, -2.0_dp, -2.0_dp, 6.0_dp], [2, 2])
+        complex(dp), allocatable :: lambda(:)
+        real(dp) :: rate, omega2
+        integer :: j
+
+        call solve(m2, d, k, lambda)
+        j = minloc(abs(lambda), 1)
+        rate = -(5.0_dp - 4.0_dp/6.0_dp)/1e6_dp
+        call assertEqual(rate, real(lambda(j)), 1e-11_dp*abs(rate), message="creeps")
+        omega2 = 6.0_dp/0.7_dp
+        rate = -0.5_dp*4.0_dp/(1e6_dp*omega2*0.7_dp)  ! what the swing of the second does to the first
+        j = minloc(abs(abs(aimag(lambda)) - sqrt(omega2)), 1)
+        call assertEqual(rate, real(lambda(j)), 1e-9_dp*abs(rate), message="hardly a loss")
+        call assertEqual(sqrt(omega2), abs(aimag(lambda(j))), 1e-11_dp, message="swings")
+    end subroutine drag_on_one_of_two
+
+    subroutine nothing_holds_it()
+        !! Two masses, one spring between them: with a drag on each a place and a rate, with one
+        !! between them no drag at all on the common motion.
+        real(dp), parameter :: k(2, 2) = reshape([2.0_dp, -2.0_dp, -2.0_dp, 2.0_dp], [2, 2])
+        complex(dp), allocatable :: lambda(:)
+
+        call solve(m2, 0.4_dp*m2, k, lambda)
+        call assertEqual(0.0_dp, minval(abs(lambda)), message="rests wherever it is")
+        call is_there(lambda, cmplx(-0.4_dp, 0.0_dp, dp), "comes to rest")
+        call solve(m2, 1e-3_dp*k, k, lambda)
+        call assertEqual(2, count(abs(lambda) <= 0.0_dp), message="moves freely")
+        call two_roots(lambda, 1.0_dp, 2e-3_dp*(1.0_dp/1.3_dp + 1.0_dp/0.7_dp), &
+                       2.0_dp*(1.0_dp/1.3_dp + 1.0_dp/0.7_dp), "the other")
+    end subroutine nothing_holds_it
+
+    subroutine drag_and_magnetic_field()
+        !! In the plane, \(z = x + iy\): \(\ddot z + (d + iB)\dot z + kz = 0\), a root of it and its
+        !! conjugate; the slow drift decays at \(d\,k/B^2\).
+        real(dp), parameter :: unit(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: field(2, 2) = reshape([0.0_dp, 1.0_dp, -1.0_dp, 0.0_dp], [2, 2])
+        real(dp), parameter :: d = 0.02_dp, k = 3.0_dp, b = 1e3_dp
+        complex(dp), allocatable :: lambda(:)
+        complex(dp) :: fast, half
+
+        call solve(unit, d*unit + b*field, k*unit, lambda)
+        half = 0.5_dp*cmplx(d, b, dp)
+        fast = -half - half*sqrt(1.0_dp - k/half**2)
+        call is_there(lambda, fast, "the orbit")
+        call is_there(lambda, k/fast, "the drift")
+        call is_there(lambda, conjg(k/fast), "the drift, conjugate")
+    end subroutine drag_and_magnetic_field
+
+    subroutine no_inertia()
+        !! A singular M is an error of LAPACK's, with nothing solved.
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp), parameter :: none(1, 1) = 0.0_dp
+
+        call quadratic_eigenvalues(none, none + 1.0_dp, none + 1.0_dp, lambda, error)
+        call assertTrue(allocated(error), message="refused")
+    end subroutine no_inertia
+end module test_quadratic_eigen
