@@ -202,11 +202,17 @@ in_little() { # in_little LIMIT... -- WORDS...: OpenBLAS is left to its own devi
     (ulimit "${limit[@]}"; exec env -u OPENBLAS_NUM_THREADS timeout 600 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null)
     status=$?
 }
+deep=$(printf 'sin( %.0s' {1..190})x$(printf ' )%.0s' {1..190})
+printf "&scene system = 'deep', dt = 0.01, duration = 1.0, q = 0.5 /\n&lagrangian coordinates = 'x', T = 'x_dot^2/2', V = '%s' /\n" "$deep" >"$work/deep.nml"
+for writer in "run $work/deep.nml --output" "derive $work/deep.nml --set scene%dt=0.1" "modes $work/deep.nml --output" "describe $work/deep.nml --set scene%dt=0.1"; do
+    in_little -s 2048 -- ${writer/%--output/--output $work/little}
+    check "${writer%% *} of 190 brackets within each other: 2048 kB of stack are enough" eval '[ $status -eq 0 ] || { [ $status -eq 2 ] && one_line; }'
+done
 for writer in "run double_pendulum --output" "run hanging_chain --output" "modes hanging_chain --output" "principle action --output" "bench --quick --quiet --output"; do
+    in_little -s 2048 -- $writer "$work/little"
+    check "$writer: 2048 kB of stack are enough" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
     in_little -s 256 -- $writer "$work/little"
-    check "$writer: 256 kB of stack are enough" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
-    in_little -s 64 -- $writer "$work/little"
-    check "$writer: 64 kB of stack are not" eval '[ $status -eq 4 ] && one_line && grep -q "ulimit -s 8192" "$work/err"'
+    check "$writer: 256 kB of stack are not" eval '[ $status -eq 4 ] && one_line && grep -q "ulimit -s 8192" "$work/err"'
 done
 for memory in 100000 140000 180000 200000; do
     for writer in list "modes double_pendulum" "check pendulum"; do

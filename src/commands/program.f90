@@ -3,7 +3,7 @@ module lagrangia_program
     use, intrinsic :: iso_c_binding, only: c_funloc, c_int
     use lagrangia_bench, only: bench_command
     use lagrangia_blas_threads, only: take_blas_memory, use_one_blas_thread
-    use lagrangia_c_library, only: c_alarm, c_exit
+    use lagrangia_c_library, only: c_alarm, c_exit, c_first_of_all
     use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_compare, only: compare_command
@@ -42,7 +42,7 @@ module lagrangia_program
     public :: lagrangia_main
     public :: give_up
 
-    integer, parameter :: least_stack = 256          !! kB, for all that is computed
+    integer, parameter :: least_stack = 2048         !! kB; 200 nested brackets take 700
     real(dp), parameter :: least_memory = 150e6_dp   !! bytes, most of them for OpenBLAS
 
 contains
@@ -58,6 +58,7 @@ contains
         type(error_t), allocatable :: error
         integer :: status
 
+        call c_first_of_all()
         call hold_standard_units()
         call use_one_blas_thread()
         if (present(failed)) then

@@ -90,7 +90,6 @@ module lagrangia_derivation
         procedure :: add
         procedure :: add_words
         procedure :: coordinate
-        procedure :: in_flight
         procedure :: multiplier
         procedure :: line_text
         procedure :: omega
@@ -102,15 +101,6 @@ module lagrangia_derivation
     end type derivation_t
 
 contains
-
-    pure function in_flight(self) result(text)
-        !! Behind a heading: where a contact may act, the equations are those without it.
-        class(derivation_t), intent(in) :: self
-        character(:), allocatable :: text
-
-        text = ""
-        if (self%d%constraint == "unilateral") text = ", in flight"
-    end function in_flight
 
     subroutine begin(self, d, constraints, error)
         !! Learn the names of a description, and its letters.

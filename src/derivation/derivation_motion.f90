@@ -31,7 +31,8 @@ contains
         logical :: coupled, linear
         integer :: i, k
 
-        self%next_heading = "solved for the accelerations"//self%in_flight()
+        self%next_heading = "solved for the accelerations"//trim(merge( &
+            ", in flight", "           ", self%d%constraint == "unilateral"))
         allocate (mass(self%n, self%n), f(self%n))
         linear = .true.
         coupled = .false.

@@ -360,7 +360,8 @@ contains
         do i = 1, self%n
             q = trim(self%d%coordinates(i)%name)
             tex = latex_name(q)
-            self%next_heading = "Lagrange's equation of "//q//self%in_flight()
+            self%next_heading = "Lagrange's equation of "//q//trim(merge( &
+                ", in flight", "           ", self%d%constraint == "unilateral"))
             call self%algebra%derivative(l, self%velocity(i), p)
             call tidy(self%algebra, p)
             call self%total_derivative(p, rate)

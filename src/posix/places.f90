@@ -47,7 +47,8 @@ contains
         do i = 1, self%count
             if (.not. same(self%items(i), place)) cycle
             call fail(error, named(place)//" and "//named(self%items(i))// &
-                      " are one file: one would be lost")
+                      " are one file: one would be lost; another '--output' or output keeps "// &
+                      "them apart")
             return
         end do
         if (self%count == size(self%items)) then

@@ -37,6 +37,8 @@ module lagrangia_accuracy
     real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
     real(dp), parameter :: margin = 4.0_dp        !! error of the other end over its distance
     real(dp), parameter :: caution = 5.0_dp       !! where the changes don't shrink as they should
+    real(dp), parameter :: linger = 10.0_dp       !! where all runs wait at a saddle,
+    real(dp), parameter :: amplified = 1e-10_dp   !! if their distances are that large, relative
     real(dp), parameter :: share_of_run = 0.125_dp
     !! what the run itself is of all that is computed; then come twice and four times that
 
@@ -111,10 +113,27 @@ contains
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, shrinking, &
                                            scene%tolerance > 0.0_dp) + rounding
+        if (lingers(system, seen) .and. maxval(state%error/max(most, tiny(most))) > amplified) &
+            state%error = linger*state%error
         call by_closed_form(scene, system, seen, closed_form, other, known)
-        if (known) state%error = max(state%error, abs(first - other))
+        if (known) state%error = max(state%error, abs(first - other) + rounding + &
+                                     rounding_of_clock(system, seen, most(1)))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
     end subroutine state_accuracy
+
+    pure function lingers(system, seen) result(yes)
+        !! Does it hardly move at the end, nor begin to? At a saddle all runs wait for the rounding
+        !! that takes them away, each for its own time, and their distances say less than elsewhere.
+        class(system_t), intent(in) :: system
+        type(final_state_t), intent(in) :: seen
+        logical :: yes
+        real(dp), parameter :: hardly = 1e-2_dp
+        real(dp) :: a(system%ndof)
+
+        call system%accelerations(seen%t, seen%q, seen%v, a)
+        yes = all(abs(seen%v) <= hardly*seen%v_most) .and. &
+              all(abs(a)*seen%q_most <= hardly*seen%v_most**2)
+    end function lingers
 
     pure function rounding_of_clock(system, seen, t_most) result(lost)
         !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion

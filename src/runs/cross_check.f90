@@ -19,6 +19,8 @@ module lagrangia_cross_check
     private
     public :: by_closed_form, by_other_method, new_other_method
 
+    real(dp), parameter :: looks = 512.0_dp  !! steps of the other method at least
+
 contains
 
     subroutine by_closed_form(scene, system, seen, closed_form, state, known)
@@ -42,7 +44,9 @@ contains
 
     subroutine by_other_method(scene, system, seen, events, allowed, state, known)
         !! Time, coordinates and velocities where the run ended, or where in truth the event is that
-        !! ended it. Not known across impacts, or where that would take too long.
+        !! ended it. Not known across impacts, or where that would take too long. However smooth the
+        !! motion, its steps are so short that a force which lasts a thousandth of the time cannot
+        !! hide between the stages of `looks` steps.
         type(scene_t), intent(in) :: scene  !! what was run
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(final_state_t), intent(in) :: seen              !! of the run
@@ -63,6 +67,7 @@ contains
         start = merge(scene%t0, 0.0_dp, system%time_dependent)
         call new_other_method(scene, system, method)
         method%dense = .false.
+        method%longest = elapsed/looks
         call method%prepare(system, error)
         if (.not. allocated(error)) call method%start(system, start, scene%q, scene%v, &
                                                       start + elapsed)

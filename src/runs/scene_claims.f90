@@ -2,7 +2,8 @@ module lagrangia_scene_claims
     !! All files of a scene, so that those of a run can be compared before any of them is written.
     use lagrangia_data_files, only: data_path, event_path, pictures, scene_path, script_path
     use lagrangia_disk_space, only: space_warning
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_files, only: facts_t, look_at, read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: field_width
     use lagrangia_output_file, only: partial_ending
@@ -10,9 +11,12 @@ module lagrangia_scene_claims
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: refuse_output
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted
     implicit none (type, external)
     private
     public :: claim_alone, claim_files, claim_scene, claim_table, size_warning
+
+    character(*), parameter :: written_by = "! lagrangia "  !! a scene of ours begins with it
 
 contains
 
@@ -79,7 +83,27 @@ contains
                                                     " file", owner, error)
         if (.not. allocated(error)) call places%add(path//partial_ending, "partial "//kind// &
                                                     " file", owner, error)
+        if (.not. allocated(error) .and. path /= stem//"dat") call keep_scene(scene_path(path), &
+                                                                              error)
     end subroutine claim_table
+
+    subroutine keep_scene(path, error)
+        !! The scene beside a csv or npy file takes the place of an earlier one that was written
+        !! like it, never of a scene that somebody else has written.
+        character(*), intent(in) :: path
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: text
+        type(error_t), allocatable :: none
+        type(facts_t) :: facts
+
+        facts = look_at(path)
+        if (.not. facts%found) return
+        call read_whole_file(path, text, none)
+        if (allocated(none)) return  ! what is there will be refused for itself
+        if (index(text, written_by) /= 1) call fail(error, quoted(path)//" is a file that "// &
+            "lagrangia has not written, and it would write its scene there; another "// &
+            "'--output' or output keeps it")
+    end subroutine keep_scene
 
     function size_warning(scene, folder, format) result(text)
         !! A line for the user where a run of the scene would write very much, or more than there is

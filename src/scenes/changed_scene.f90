@@ -151,6 +151,7 @@ contains
                 given = given//key//" "
                 if (.not. present(same)) cycle
                 if (any(same == without_index(key)) .or. index(key, "expect_") == 1) cycle
+                if (any(names == key)) key = "scene_"//key  ! a parameter has that name as well
             else if (group == "lagrangian" .and. present(same)) then
                 if (any(shown_only == key(:index(key//"(", "(") - 1))) cycle
             else
