@@ -96,6 +96,17 @@ for kind in -s ""; do
         rm o/*
     done
 done
+# A scene that somebody else has written is not overwritten by the one that lies beside csv and npy
+for words in "run@g.csv" "sweep --over q=1:2:2 --keep theta@g_sweep.csv"; do
+    echo "&scene /" >"o/${words#*@}.nml"
+    run ${words%@*} g.nml --format csv --output o
+    check "${words%@*} --format csv: a scene of the user's is kept" eval '[ $status -eq 2 ] && one_line && [ "$(cat "o/${words#*@}.nml")" = "&scene /" ]'
+    rm o/*
+    run ${words%@*} g.nml --format csv --output o
+    run ${words%@*} g.nml --format csv --output o
+    check "${words%@*} --format csv: and one of ours is written again" eval '[ $status -eq 0 ] && [ -s "o/${words#*@}.nml" ]'
+    rm o/*
+done
 # and these are two files
 long=$(printf 'n%.0s' $(seq 40))
 scene "${long}x.nml"

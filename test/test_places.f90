@@ -107,7 +107,8 @@ contains
         if (anyExceptions()) return
         call assertEqual(status_usage, error%status)
         call assertEqual("the data file './x.nml' of y and the scene 'x.nml' are one file: one "// &
-                         "would be lost", error%message)
+                         "would be lost; another '--output' or output keeps them apart", &
+                         error%message)
     end subroutine a_collision_names_both
 
     subroutine no_place_of_many_is_forgotten()

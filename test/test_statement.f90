@@ -23,6 +23,10 @@ contains
 
         suite = TestSuite("statement")
         call suite%addTest(TestMethod("chaos_leaves_no_digit", chaos_leaves_no_digit))
+        call suite%addTest(TestMethod("a_short_force_is_not_stepped_over", &
+                                      a_short_force_is_not_stepped_over))
+        call suite%addTest(TestMethod("at_a_saddle_errors_are_as_large", &
+                                      at_a_saddle_errors_are_as_large))
         call suite%addTest(TestMethod("the_time_of_an_event_has_an_error", &
                                       the_time_of_an_event_has_an_error))
         call suite%addTest(TestMethod("a_finer_step_that_cannot_be_is_refused", &
@@ -71,6 +75,55 @@ contains
         call perform(adaptive, [word_t ::], outcome, error)
         call assertFalse(any(outcome%state%resolved()), final_values_line(outcome%state))
     end subroutine chaos_leaves_no_digit
+
+    subroutine a_short_force_is_not_stepped_over()
+        !! A hill that stops the mass at 5 m, a blow after 5 s: both last a thousandth of the time,
+        !! and no step of an adaptive method sees them.
+        character(*), parameter :: hill = "&scene system = 'own', tolerance = 1e-10, "// &
+            "duration = 10.0, q = 0.0, v = 1.0, error_estimate = .true. / "// &
+            "&lagrangian coordinates = 'x', T = '1/2 x_dot^2', "// &
+            "V = '10 exp(-((x - 5)/1e-3)^2)' /"
+        character(*), parameter :: blow = "&scene system = 'own', tolerance = 1e-10, "// &
+            "duration = 10.0, q = 0.0, v = 0.3, error_estimate = .true. / "// &
+            "&lagrangian coordinates = 'x', T = '1/2 x_dot^2', "// &
+            "Q_x = '1e3 exp(-((t - 5)/1e-3)^2)' /"
+        character(8), parameter :: methods(2) = [character(8) :: "dop853", "gauss16"]
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(methods)
+            call perform(hill, one("scene%method="//trim(methods(i))), outcome, error)
+            call assertFalse(allocated(error), "it runs")
+            if (allocated(error)) return
+            call assertGreaterThan(outcome%state(2)%error, &
+                                   abs(outcome%state(2)%value + 1.0_dp), message="it turns back")
+            call perform(blow, one("scene%method="//trim(methods(i))), outcome, error)
+            call assertGreaterThan(outcome%state(1)%error, abs(outcome%state(1)%value - 3.0_dp &
+                                   - 5.0_dp*sqrt(acos(-1.0_dp))), message="it is hit")
+        end do
+    end subroutine a_short_force_is_not_stepped_over
+
+    subroutine at_a_saddle_errors_are_as_large()
+        !! A rod that comes to the top after half the time and waits there: the truth, by Jacobi's
+        !! sn with 50 digits, is beyond what the runs differ by.
+        character(*), parameter :: text = "&scene system = 'own', method = 'gauss16', "// &
+            "duration = 12.538500094441034, dt = 0.011930066693093277, q = 0.0, -1.0, "// &
+            "v = 7.979367572283047, 0.0, error_estimate = .true. / "// &
+            "&lagrangian coordinates = 'x', 'y', parameters = 'g', "// &
+            "T = '1/2 (x_dot^2 + y_dot^2)', V = 'g y', constraint = 'x^2 + y^2 = 1' / "// &
+            "&own g = 15.91757671340056 /"
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        call perform(text, [word_t ::], outcome, error)
+        call assertFalse(allocated(error), "it runs")
+        if (allocated(error)) return
+        call assertGreaterThan(outcome%state(1)%error, &
+                               abs(outcome%state(1)%value + 0.001890921517_dp), message="x")
+        call assertGreaterThan(outcome%state(3)%error, &
+                               abs(outcome%state(3)%value - 0.0075442_dp), message="x_dot")
+    end subroutine at_a_saddle_errors_are_as_large
 
     subroutine the_time_of_an_event_has_an_error()
         !! An oscillator passes zero at a quarter of its period; its phase is wrong by the method's

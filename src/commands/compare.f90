@@ -62,7 +62,9 @@ contains
             call fail(error, "compare what? 'lagrangia compare pendulum --methods rk4,verlet'; "// &
                       "'lagrangia list scenes' shows the names")
         else if (line%has("methods") .eqv. line%has("starts")) then
-            call fail(error, "compare by what? --methods rk4,verlet or --starts ""0.5 1 2""")
+            call fail(error, "compare by what? --methods rk4,verlet or --starts ""0.5 1 2"""// &
+                      trim(merge(", not by both at once", "                     ", &
+                                 line%has("methods"))))
         else if (line%has("animate") .and. .not. line%has("methods")) then
             call fail(error, "--animate: a film shows two methods of one motion; --methods "// &
                       "names them")

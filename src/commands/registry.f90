@@ -33,7 +33,7 @@ module lagrangia_registry
         option_t("plot", may_have_value, "png|svg|pdf", "draw the data files by gnuplot"), &
         option_t("animate", no_value, "", "a film of each scene, two methods, or the modes"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
-        option_t("quick", no_value, "", "measure less, in under 20 s"), &
+        option_t("quick", no_value, "", "measure less, in half a minute or so"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured or compared"), &

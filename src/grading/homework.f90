@@ -19,7 +19,7 @@ module lagrangia_homework
     use lagrangia_names, only: name_length, nearest_name
     use lagrangia_sheet_lines, only: is_remark, read_statements
     use lagrangia_shipped_files, only: read_file_or_shipped, shipped_files
-    use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
+    use lagrangia_text, only: append_word, lower, quoted, short_source, to_text, word_t
     implicit none (type, external)
     private
     public :: homework_t, statement_t
@@ -236,7 +236,7 @@ contains
         if (len(text) > statement_length) then
             call refuse("longer than "//to_text(statement_length)//" bytes")
         else if (colon > 0) then
-            select case (trim(adjustl(plainly(text(:colon - 1)))))
+            select case (lower(trim(adjustl(plainly(text(:colon - 1))))))
             case ("system")
                 if (homework%system /= "") then
                     call refuse("'system:' a second time; one file is about one system")

@@ -18,6 +18,7 @@ module lagrangia_files
 
     integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
     integer, parameter :: e_input_output = 5  !! EIO
+    integer, parameter :: e_access = 13       !! EACCES
     integer, parameter :: e_bad_unit = 9      !! EBADF
     integer, parameter :: e_exists = 17       !! EEXIST
     integer, parameter :: e_invalid = 22      !! EINVAL
@@ -213,7 +214,9 @@ contains
             problem = "the name of the file holds a NUL byte"
         else
             facts = look_at(path)
-            if (.not. facts%found) then
+            if (facts%status == e_access) then
+                problem = reason(e_access)
+            else if (.not. facts%found) then
                 problem = "no such file"
             else if (facts%folder) then
                 problem = "is a folder; a file is needed"

@@ -198,8 +198,8 @@ contains
                  [quote_t("II", 5, "reflection of light always takes the shortest path"), &
                   quote_t("II", 6, "by a path that requires the least time")], &
                  "light always takes the shortest path, or the least time", &
-                 "a stationary one: from a diameter of a concave mirror the longest; in an "// &
-                 "ellipse all alike", &
+                 "a stationary one; for points on a concave mirror's diameter the longest; in "// &
+                 "an ellipse all alike", &
                  "no image in a concave mirror", &
                  principle="least-time")
         call add("E17", kind_scan, "Maupertuis", &

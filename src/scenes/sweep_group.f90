@@ -25,6 +25,7 @@ contains
         type(namelist_t), intent(inout) :: tree           !! keys that are read are marked as used
         type(sweep_group_t), intent(out) :: sweep         !! else as by default
         type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
+        integer(i8), parameter :: not_given = -huge(1_i8)
         integer(i8) :: points, seed, threads
 
         allocate (sweep%over(0), sweep%keep(0))
@@ -61,18 +62,19 @@ contains
         call get_integer(tree, group, "seed", seed, error)
         if (allocated(error)) return
         if (abs(seed) > huge(0)) then
-            call refuse_value(tree, group, "seed", "a whole number of at most nine figures is "// &
-                              "needed", error)
+            call refuse_value(tree, group, "seed", "a whole number from -2147483647 to "// &
+                              "2147483647 is needed", error)
             return
         end if
-        threads = sweep%threads
+        threads = not_given
         call get_integer(tree, group, "threads", threads, error)
         if (allocated(error)) return
-        if (threads < 1 .or. threads > 10000) then
-            if (threads /= sweep%threads) call refuse_value(tree, group, "threads", &
-                "a number from 1 to 10000 is needed", error)
+        if (threads == not_given) then
+            threads = sweep%threads
+        else if (threads < 1 .or. threads > 10000) then
+            call refuse_value(tree, group, "threads", "a number from 1 to 10000 is needed", error)
+            return
         end if
-        if (allocated(error)) return
         sweep%seed = int(seed)
         sweep%threads = int(threads)
         call refuse_unknown_keys(tree, group, keys, error)
