@@ -148,7 +148,7 @@ contains
                 if (index(lines(j)%text, trim(quote%text)) == 0) cycle
                 call assertTrue(any(slip%quotes%scan == quote%scan .and. &
                                     slip%quotes%line == lines(j)%line), slip%id//": "// &
-                                trim(quote%text)//" is on line "//to_text(lines(j)%line)//" as well")
+                                trim(quote%text)//" is on line "//to_text(lines(j)%line))
             end do
         end subroutine look_elsewhere
     end subroutine quotes_stand_in_the_notes

@@ -389,6 +389,9 @@ contains
     end subroutine the_lines_of_the_notes
 
     subroutine sheets_that_cannot_be_read()
+        type(homework_t) :: homework
+        type(error_t), allocatable :: error
+
         call refused("", "no line 'system: NAME'")
         call refused("x = 1", "no line 'system: NAME'")
         call refused("system: pendulum", "nothing to grade")
@@ -396,6 +399,11 @@ contains
         call refused("system: pendulum"//line_feed//"system: wedge", &
                      "sheet:2: 'system:' a second time")
         call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: column 8: what is ")
+        call refused("system: pendulum"//repeat(line_feed//"theta = theta", 1001), &
+                     "sheet:1002: more than 1000 statements")
+        call parse_homework("System: pendulum"//repeat(line_feed//"theta = theta", 1000), "sheet", &
+                            homework, error)
+        call assertFalse(allocated(error), "1000 statements are not too many")
         call unreadable("set: g", "'set:' needs a parameter")
         call unreadable("set: g*l = l = 2", "a line 'set:' has one '='")
         call unreadable("sin 2 theta = 1", "write 'sin(2)'")

@@ -78,7 +78,8 @@ contains
                 m = 1.7_dp*10.0_dp**j
                 k = 0.9_dp*10.0_dp**(-j)
                 d = 1.1_dp*10.0_dp**i
-                call solve(reshape([m], [1, 1]), reshape([d], [1, 1]), reshape([k], [1, 1]), lambda)
+                call solve(reshape([m], [1, 1]), reshape([d], [1, 1]), &
+                           reshape([k], [1, 1]), lambda)
                 call two_roots(lambda, m, d, k, "one coordinate")
             end do
         end do
@@ -86,7 +87,8 @@ contains
 
     subroutine drag_in_proportion()
         !! \(D = \alpha M + \beta K\) keeps the shapes: each mode by itself.
-        real(dp), parameter :: s(3, 3) = reshape([0.8_dp, 0.2_dp, -0.5_dp, -0.3_dp, 0.9_dp, 0.4_dp, &
+        real(dp), parameter :: s(3, 3) = reshape([0.8_dp, 0.2_dp, -0.5_dp, &
+                                                  -0.3_dp, 0.9_dp, 0.4_dp, &
                                                   0.6_dp, -0.1_dp, 0.7_dp], [3, 3])
         real(dp), parameter :: omega2(3) = [0.7_dp, 2.3_dp, 11.0_dp]
         real(dp) :: m(3, 3), k(3, 3), alpha, beta
@@ -136,7 +138,7 @@ contains
         rate = -(5.0_dp - 4.0_dp/6.0_dp)/1e6_dp
         call assertEqual(rate, real(lambda(j)), 1e-11_dp*abs(rate), message="creeps")
         omega2 = 6.0_dp/0.7_dp
-        rate = -0.5_dp*4.0_dp/(1e6_dp*omega2*0.7_dp)  ! what the swing of the second does to the first
+        rate = -0.5_dp*4.0_dp/(1e6_dp*omega2*0.7_dp)  ! by what the first is moved
         j = minloc(abs(abs(aimag(lambda)) - sqrt(omega2)), 1)
         call assertEqual(rate, real(lambda(j)), 1e-9_dp*abs(rate), message="hardly a loss")
         call assertEqual(sqrt(omega2), abs(aimag(lambda(j))), 1e-11_dp, message="swings")

@@ -14,7 +14,7 @@ with the other objects of an ordinary build. A mutant whose object file is the o
 It dies if a suite of the unit tests fails, crashes or uses ten times the processor's time: first those
 that use the module, then all from which it can be reached, the quickest first. What survives them
 meets what users run: the main job, .ci/try_pages.sh and .ci/try_commands.sh, and .ci/try_shells.sh
-where the change is in what the completion and the manual page are made of. Survivors are
+or .ci/try_terminals.py where the change is in what completion and manual page are made of, or lines on a terminal. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
 which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
 gate: most mutants take seconds, a survivor as long as all that looks at it.
@@ -51,6 +51,7 @@ SWAPS = {
 }
 OF_SHELLS = tuple(f"src/commands/{name}.f90" for name in ("completion", "manual", "registry", "vocabulary",
                                                            "command_pages"))  # what try_shells.sh looks at
+OF_TERMINALS = ("src/posix/console.f90", "src/posix/terminal_text.f90")
 HEAVY = ("audit", "principles", "scenes", "runs", "commands", "bench", "stress")  # drawn twice as often
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?_dp|\d+(?!\.\d)(?:_i8)?)(?![\w.])")
 DECLARATION = re.compile(r"^\s*(use|import|implicit|public|private|end|module|submodule|contains|type|class|real|integer|"
@@ -359,12 +360,17 @@ def noticed_by_tests(unit, build, source, times):
     return ""
 
 
-def noticed_by_users(program, root, work, limits, shells):
-    """The first of the things that users run which does not end well, with a Tab in `shells` or
-    without, and all that it printed; "" and "" if all do."""
-    scripts = ["try_pages.sh"] + ["try_shells.sh"]*shells + ["try_commands.sh"]
+def noticed_by_users(program, root, work, limits, source):
+    """The first of the things that users run which does not end well, and all that it printed; with
+    a Tab in shells or on terminals if `source` has to do with them, or is None. "" and "" if all do."""
+    scripts = ["try_pages.sh"]
+    if source is None or source in OF_SHELLS:
+        scripts.append("try_shells.sh")
+    if source is None or source in OF_TERMINALS:
+        scripts.append("try_terminals.py")
     for command in ([program, "--output", os.path.join(work, "data")],
-                    *(["bash", ".ci/" + script, program] for script in scripts)):
+                    *(["python3" if script.endswith(".py") else "bash", ".ci/" + script, program]
+                      for script in [*scripts, "try_commands.sh"])):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
@@ -436,7 +442,7 @@ def main():
     times = suite_times(build.link("unit", {}), build)
     if not words.quick:
         used = processor_time()
-        refuse(*noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, True))
+        refuse(*noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, None))
         limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
     none = 0  # drawn, and no mutant
@@ -454,7 +460,7 @@ def main():
             by = noticed_by_tests(unit, build, source, times)
             fate = "died" if by else "survived"
             if not by and not words.quick:
-                by, _ = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source in OF_SHELLS)
+                by, _ = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),

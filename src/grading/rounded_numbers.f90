@@ -244,14 +244,14 @@ contains
         if (mode == 0) return
         do draw = 1, draws
             omega2 = samples%omega2(draw, mode)
-            associate (rows => values((draw - 1)*states + 1:draw*states, :))
-                rows(:, samples%frequency) = sqrt(abs(omega2))
-                rows(:, samples%frequency + 1) = omega2
-            end associate
             if (.not. omega2 > 0.0_dp) then
                 deallocate (values)
                 return
             end if
+            associate (rows => values((draw - 1)*states + 1:draw*states, :))
+                rows(:, samples%frequency) = sqrt(omega2)
+                rows(:, samples%frequency + 1) = omega2
+            end associate
         end do
     end subroutine choose
 

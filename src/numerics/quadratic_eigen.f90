@@ -119,7 +119,7 @@ contains
             better = lambda
             roots(1) = c**2 - 4.0_dp*m*k
             if (roots(1) < 0.0_dp) return
-            if (max(abs(c), abs(k)) <= 0.0_dp) then  ! moves freely: a double 0, which rounding splits
+            if (max(abs(c), abs(k)) <= 0.0_dp) then  ! it moves freely: a double 0
                 better = 0.0_dp
                 return
             end if

@@ -74,7 +74,8 @@ contains
             return
         end if
         call fail(error, "not an equilibrium of "//trim(d%name)// &
-                  trim(merge(" in flight", "          ", system%contacts > 0))//": the force on "// &
+                  trim(merge(" in flight", "          ", system%contacts > 0))// &
+                  ": the force on "// &
                   trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
                   trim(unit_over(trim(d%coordinates(worst)%unit), "J", "N", "N m"))//"; "//near)
     end subroutine settle

@@ -1,7 +1,8 @@
 module lagrangia_all_paths
     !! All paths of a pendulum between two events, 0 at first, 1 rad a time T later, that do not go
-    !! over the top. Each makes S stationary; how many directions lower it, Morse's index, is the number of conjugate points
-    !! on the way. Descent finds the least only, and where there is none it runs away.
+    !! over the top. Each makes S stationary; how many directions lower it, Morse's index, is the
+    !! number of conjugate points on the way. Descent finds the least only, and where there is none
+    !! it runs away.
     use lagrangia_action_paths, only: extrapolated_action, oscillator_action, straight
     use lagrangia_discrete_action, only: action_of, expand_action, find_path, lowest_variation, &
                                          negative_curvatures

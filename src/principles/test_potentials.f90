@@ -1,6 +1,6 @@
 module lagrangia_test_potentials
     !! A charge in potentials that are made up: \(\varphi(x, t)\) and \(A(x, t)\) of no symmetry.
-    use lagrangia_description, only: coordinate, description_t, mass_point, positive, real_number
+    use lagrangia_description, only: coordinate, description_t, positive, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, exp, hyperdual, hyperdual_t, operator(*), &
                                    operator(**), operator(+), operator(-), sin
@@ -41,7 +41,6 @@ contains
         d%parameters = [positive("m", "kg", "mass", self%m), &
                         real_number("charge", "C", "charge", self%charge)]
         allocate (d%quantities(0), d%notes(0))
-        d%points = [mass_point("charge", self%m)]
         d%dimensions = 3
         d%energy_scale = self%m
     end subroutine describe

@@ -113,8 +113,9 @@ contains
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, shrinking, &
                                            scene%tolerance > 0.0_dp) + rounding
-        if (lingers(system, seen) .and. maxval(state%error/max(most, tiny(most))) > amplified) &
+        if (lingers(system, seen) .and. maxval(state%error/max(most, tiny(most))) > amplified) then
             state%error = linger*state%error
+        end if
         call by_closed_form(scene, system, seen, closed_form, other, known)
         if (known) state%error = max(state%error, abs(first - other) + rounding + &
                                      rounding_of_clock(system, seen, most(1)))

@@ -76,7 +76,8 @@ module lagrangia_scene_reference
         entry_t("scene", "modes", "", ".false.", "omega of the small oscillations beside its "// &
                 "closed form in the scorecard", "modes = .true."), &
         entry_t("scene", "error_estimate", "", ".false.", "state the final state to the digits "// &
-                "that hold; a force shorter than a thousandth of the time may hide between steps", "error_estimate = .true."), &
+                "that hold; a force shorter than a thousandth of the time may hide between "// &
+                "steps", "error_estimate = .true."), &
         entry_t("scene", "output", "", "the file's name", "of the data files, below the output "// &
                 "folder; letters, digits, . _ - / and blanks", "output = 'first/try'"), &
         entry_t("scene", "expect_NAME", "", absent, "a bound that is judged: of error, of "// &

@@ -32,7 +32,7 @@ module lagrangia_rolling_disk
         real(dp) :: m = 1.0_dp        !! kg
         real(dp) :: r = 0.3_dp        !! m
         real(dp) :: i_roll = 0.0_dp   !! about the axle, kg m^2; `configure` sets \(mR^2/2\)
-        real(dp) :: i_yaw = 0.0_dp    !! about the plane's normal, kg m^2; `configure` sets \(mR^2/4\)
+        real(dp) :: i_yaw = 0.0_dp    !! about the normal, kg m^2; `configure` sets \(mR^2/4\)
         real(dp) :: g = 9.81_dp       !! m s^-2
         real(dp) :: incline = 0.0_dp  !! of the plane, rad
     contains
