@@ -162,7 +162,7 @@ def same_json(folder, words):
 
 
 LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hanging_chain", "--set", "hanging_chain%n=40"],
-        ["modes", "hanging_chain", "--set", "hanging_chain%n=150", "--plot"],
+        ["modes", "hanging_chain", "--set", "hanging_chain%n=120", "--plot"],
         ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=3000"],
         ["bench", "sweep", "--quick"], ["report"], ["--plot"])
 with tempfile.TemporaryDirectory() as home:
