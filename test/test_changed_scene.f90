@@ -286,12 +286,6 @@ contains
         call assertTrue(allocated(error), "another start is needed")
         if (allocated(error)) call assertTrue(index(error%message, &
             "; add --set scene%q=5*0.6") > 0, error%message)
-        call parse_scene("&scene system = 'hanging_chain', dt = 0.01, duration = 1.0, "// &
-                         "q = 0.6, 0.5, 0.6 / &hanging_chain n = 3 /", "a.nml", overrides(:1), &
-                         scene, system, error)
-        call assertTrue(allocated(error), "another start is needed, not one number")
-        if (allocated(error)) call assertTrue(index(error%message, &
-            "; add --set scene%q=5 values") > 0, error%message)
         call read_scene("data/scenes/hanging_chain.nml", overrides, scene, system, error)
         call assertFalse(allocated(error), "with it")
         if (allocated(error)) return

@@ -29,6 +29,7 @@ contains
         call suite%addTest(TestMethod("names_and_units_have_limits", names_and_units_have_limits))
         call suite%addTest(TestMethod("sweeps_that_cannot_be", sweeps_that_cannot_be))
         call suite%addTest(TestMethod("lines_of_a_sheet", lines_of_a_sheet))
+        call suite%addTest(TestMethod("a_longer_chain_needs_a_start", a_longer_chain_needs_a_start))
     end function rare_refusals_suite
 
     subroutine says(expected, error, what)
@@ -142,6 +143,29 @@ contains
         call make_sweep(cart//"/", over, [keep], sweep, error)
         call says(expected, error, keep)
     end subroutine swept
+
+    subroutine a_longer_chain_needs_a_start()
+        !! As many numbers; how to write them where they are all the same.
+        call started("0.6, 0.5, 0.6", "5 values")
+        call started("0.6, 0.6, 0.6", "5*0.6")
+    end subroutine a_longer_chain_needs_a_start
+
+    subroutine started(q, remedy)
+        !! A chain of three bobs becomes one of five.
+        character(*), intent(in) :: q, remedy
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(word_t) :: five(1)
+        type(error_t), allocatable :: error
+
+        five(1)%text = "hanging_chain%n=5"
+        call parse_scene("&scene system = 'hanging_chain', dt = 0.01, duration = 1.0, q = "//q// &
+                         " / &hanging_chain n = 3 /", "a.nml", five, scene, system, error)
+        call assertTrue(allocated(error), q)
+        if (.not. allocated(error)) return
+        call assertEqual("; add --set scene%q="//remedy, &
+                         error%message(index(error%message, "; add"):), q)
+    end subroutine started
 
     subroutine lines_of_a_sheet()
         !! A word before a colon that is none of a sheet's, and constants without a name.
