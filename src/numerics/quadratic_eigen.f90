@@ -19,7 +19,8 @@ contains
         !!
         !! LAPACK's `dgeev` errs by \(\epsilon\) times the largest \(|\lambda|\). The first-order
         !! form of \(M\ddot u = -D\dot u - Ku\) therefore gives the fast ones, and where K is not
-        !! singular that of \(1/\lambda\), \(Ku = -\dots\), the slow ones. Each is then the root of
+        !! singular that of \(1/\lambda\), \(Ku = -\dots\), the slow ones. A step of Newton's method
+        !! mends those between. Each is then the root of
         !! \(\lambda^2\,u^\dagger Mu + \lambda\,u^\dagger Du + u^\dagger Ku = 0\) with its own
         !! vector, without the difference of two nearly equal numbers: of an oscillation
         !! \(\mathrm{Re}\,\lambda = -(c\,\omega + k_i)/(2m\omega + g)\), where \(m\), \(c + ig\) and
@@ -54,6 +55,7 @@ contains
         do j = 1, size(lambda)
             if (j <= fast) noise = 16*size(lambda)*epsilon(noise)*abs(all_fast(1))
             if (j > fast) noise = 1e-6_dp*abs(all_fast(j))
+            call improve(all_fast(j), shapes(:, j), noise, mass, damping, stiffness)
             lambda(j) = refined(all_fast(j), noise, shapes(:, j), mass, damping, stiffness)
         end do
     end subroutine quadratic_eigenvalues
@@ -99,6 +101,39 @@ contains
             if (im(j) < 0.0_dp) vectors(:, i) = cmplx(z(:n, j - 1), -z(:n, j), dp)
         end do
     end subroutine first_order
+
+    pure subroutine improve(lambda, u, noise, mass, damping, stiffness)
+        !! A step of Newton's method for \(Q(\lambda)u = 0\), \(Q = \lambda^2M + \lambda D + K\),
+        !! with a change of u across u; none where two eigenvalues meet.
+        complex(dp), intent(inout) :: lambda, u(:)
+        real(dp), intent(in) :: noise  !! how far `lambda` may be off
+        real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
+        complex(dp) :: q(size(u) + 1, size(u) + 1), r(size(u) + 1), change(size(u) + 1)
+        real(dp), dimension(2*size(u) + 2, 2*size(u) + 2) :: a
+        real(dp) :: x(2*size(u) + 2)
+        type(error_t), allocatable :: singular
+        integer :: n
+
+        n = size(u) + 1
+        q = 0.0_dp
+        r = 0.0_dp
+        q(:n - 1, :n - 1) = lambda**2*mass + lambda*damping + stiffness
+        r(:n - 1) = -matmul(q(:n - 1, :n - 1), u)
+        q(:n - 1, n) = matmul(2.0_dp*lambda*mass + damping, u)
+        q(n, :n - 1) = conjg(u)
+        a(:n, :n) = real(q)
+        a(:n, n + 1:) = -aimag(q)
+        a(n + 1:, :n) = aimag(q)
+        a(n + 1:, n + 1:) = real(q)
+        call solve_linear(a, [real(r), aimag(r)], x, singular)
+        if (allocated(singular)) return
+        change = cmplx(x(:n), x(n + 1:), dp)
+        if (.not. abs(change(n)) <= noise + 1e-6_dp*abs(lambda)) return
+        if (.not. norm2(abs(change(:n - 1))) <= 1e-3_dp*norm2(abs(u))) return
+        u = u + change(:n - 1)
+        if (abs(aimag(lambda)) <= 0.0_dp) change(n) = real(change(n))
+        lambda = lambda + change(n)
+    end subroutine improve
 
     pure function refined(lambda, noise, u, mass, damping, stiffness) result(better)
         !! The root near `lambda` of the quadratic that its vector makes. A sum that is no more than
