@@ -51,7 +51,7 @@ SWAPS = {
 }
 OF_SHELLS = tuple(f"src/commands/{name}.f90" for name in ("completion", "manual", "registry", "vocabulary",
                                                            "command_pages"))  # what try_shells.sh looks at
-OF_TERMINALS = ("src/posix/console.f90", "src/posix/terminal_text.f90")
+OF_TERMINALS = ("src/posix/console.f90",)  # what try_terminals.py looks at
 HEAVY = ("audit", "principles", "scenes", "runs", "commands", "bench", "stress")  # drawn twice as often
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?_dp|\d+(?!\.\d)(?:_i8)?)(?![\w.])")
 DECLARATION = re.compile(r"^\s*(use|import|implicit|public|private|end|module|submodule|contains|type|class|real|integer|"

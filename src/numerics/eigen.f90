@@ -4,11 +4,11 @@ module lagrangia_eigen
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_jacobi, only: refine_modes
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_eigen, only: dgejsv, dsygv, dsygvd
+    use lagrangia_lapack_eigen, only: dgeev, dgejsv, dsygv, dsygvd
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: norm1, normal_modes, modes_from_factors, out_of_range, residual_ratio
+    public :: eigenpairs, norm1, normal_modes, modes_from_factors, out_of_range, residual_ratio
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
     real(dp), parameter :: graded = 1.0_dp/16.0_dp
@@ -20,6 +20,40 @@ module lagrangia_eigen
     end interface normal_modes
 
 contains
+
+    pure subroutine eigenpairs(matrix, what, values, vectors, error)
+        !! Solve \(Ax = \mu x\) of a matrix without symmetry, in LAPACK's order: of two that are
+        !! conjugate the one with \(\mathrm{Im}\,\mu > 0\) first. It errs by \(\epsilon\) times the
+        !! largest \(|\mu|\).
+        !!
+        !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.4.2; `dgeev`.
+        real(dp), intent(in) :: matrix(:, :)              !! \(A\), finite, (n, n)
+        character(*), intent(in) :: what                  !! is not found if that fails
+        complex(dp), intent(out) :: values(:)             !! (n)
+        complex(dp), intent(out) :: vectors(:, :)         !! (n, n), column j of `values(j)`
+        type(error_t), allocatable, intent(out) :: error  !! status 4: no convergence
+        real(dp), dimension(size(values), size(values)) :: a, z
+        real(dp), dimension(size(values)) :: re, im
+        real(dp) :: none(1, 1), work(20*size(values) + 100)
+        integer :: j, n, info
+
+        n = size(values)
+        values = 0.0_dp
+        vectors = 0.0_dp
+        a = matrix
+        call dgeev("N", "V", n, a, n, re, im, none, 1, z, n, work, size(work), info)
+        if (info /= 0) then
+            call fail(error, "LAPACK found no "//what//" (info = "//to_text(info)//")", &
+                      status_library)
+            return
+        end if
+        values = cmplx(re, im, dp)
+        do j = 1, n
+            vectors(:, j) = z(:, j)
+            if (im(j) > 0.0_dp) vectors(:, j) = cmplx(z(:, j), z(:, j + 1), dp)
+            if (im(j) < 0.0_dp) vectors(:, j) = cmplx(z(:, j - 1), -z(:, j), dp)
+        end do
+    end subroutine eigenpairs
 
     pure subroutine matrix_modes(stiffness, inertia, omega2, modes, error)
         !! Solve \(K u = \omega^2 M u\) with \(u^\top M u = 1\), \(\omega^2\) ascending; of each

@@ -1,10 +1,9 @@
 module lagrangia_gyroscopic
     !! Small oscillations with gyroscopic forces: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_eigen, only: norm1, normal_modes
-    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_eigen, only: eigenpairs, norm1, normal_modes
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -103,11 +102,9 @@ contains
         logical, intent(in) :: inverse  !! whether to solve for \(1/\lambda\); no \(\rho_i\) is 0
         complex(dp), intent(out) :: lambda(:), modes(:, :)  !! (n), \(q\) in columns, (n, n)
         type(error_t), allocatable, intent(out) :: error
-        real(dp), dimension(2*size(omega2), 2*size(omega2)) :: a, vectors
-        real(dp), dimension(2*size(omega2)) :: re, im
-        real(dp) :: left(1, 1), work(40*size(omega2) + 100), rho(size(omega2))
-        complex(dp) :: all_lambda(2*size(omega2)), z(2*size(omega2))
-        integer :: chosen(size(omega2)), n, i, j, k, info
+        real(dp) :: a(2*size(omega2), 2*size(omega2)), rho(size(omega2))
+        complex(dp) :: all_lambda(2*size(omega2)), vectors(2*size(omega2), 2*size(omega2))
+        integer :: chosen(size(omega2)), n, i, j, k
 
         lambda = 0.0_dp
         modes = 0.0_dp
@@ -126,25 +123,17 @@ contains
                 a(n + i, n + 1:) = -coupling(i, :)
             end if
         end do
-        call dgeev("N", "V", 2*n, a, 2*n, re, im, left, 1, vectors, 2*n, work, size(work), info)
-        if (info /= 0) then
-            call fail(error, "LAPACK found no frequencies (info = "//to_text(info)//")", &
-                      status_library)
-            return
-        end if
-        all_lambda = cmplx(re, im, dp)
+        call eigenpairs(a, "frequencies", all_lambda, vectors, error)
+        if (allocated(error)) return
         if (inverse) all_lambda = 1.0_dp/all_lambda
         call one_of_each_pair(all_lambda, chosen)
         do k = 1, n
             j = chosen(k)
             lambda(k) = all_lambda(j)
-            z = vectors(:, j)
-            if (im(j) > 0.0_dp) z = cmplx(vectors(:, j), vectors(:, j + 1), dp)
-            if (im(j) < 0.0_dp) z = cmplx(vectors(:, j - 1), -vectors(:, j), dp)
             where (rho >= abs(lambda(k)))
-                modes(:, k) = z(:n)/rho
+                modes(:, k) = vectors(:n, j)/rho
             else where
-                modes(:, k) = z(n + 1:)/lambda(k)
+                modes(:, k) = vectors(n + 1:, j)/lambda(k)
             end where
         end do
     end subroutine solve_first_order

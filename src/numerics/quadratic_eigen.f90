@@ -1,12 +1,11 @@
 module lagrangia_quadratic_eigen
     !! The exponents of small oscillations with damping, \(M\ddot u + D\dot u + Ku = 0\), the
     !! slowest as right as the fastest.
-    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_eigen, only: eigenpairs
+    use lagrangia_errors, only: error_t
     use lagrangia_gyroscopic, only: fast_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
-    use lagrangia_lapack_eigen, only: dgeev
-    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: quadratic_eigenvalues
@@ -65,11 +64,10 @@ contains
         real(dp), intent(in) :: leading(:, :), middle(:, :), last(:, :)  !! A, B, C
         complex(dp), intent(out) :: values(:), vectors(:, :)             !! (2n), (n, 2n)
         type(error_t), allocatable, intent(out) :: error
-        real(dp), dimension(size(values), size(values)) :: a, z
-        real(dp), dimension(size(values)) :: re, im, size_of
-        real(dp) :: none(1, 1), work(20*size(values) + 100), noise
+        complex(dp) :: pairs(size(values)), z(size(values), size(values))
+        real(dp) :: a(size(values), size(values)), size_of(size(values)), noise
         real(dp), dimension(size(leading, 1)) :: column
-        integer :: i, j, n, info
+        integer :: i, j, n
 
         n = size(leading, 1)
         values = 0.0_dp
@@ -84,21 +82,16 @@ contains
             if (allocated(error)) return
             a(n + 1:, n + j) = column
         end do
-        call dgeev("N", "V", 2*n, a, 2*n, re, im, none, 1, z, 2*n, work, size(work), info)
-        if (info /= 0) then
-            call fail(error, "LAPACK found no damped modes (info = "//to_text(info)//")", &
-                      status_library)
-            return
-        end if
-        noise = 16*n*epsilon(noise)*maxval(hypot(re, im))
-        size_of = hypot(re, im)
+        call eigenpairs(a, "damped modes", pairs, z, error)
+        if (allocated(error)) return
+        size_of = hypot(real(pairs), aimag(pairs))
+        noise = 16*n*epsilon(noise)*maxval(size_of)
         do i = 1, 2*n
             j = maxloc(size_of, 1)
             size_of(j) = -1.0_dp
-            values(i) = cmplx(re(j), merge(im(j), 0.0_dp, abs(im(j)) > noise), dp)
+            values(i) = pairs(j)
+            if (abs(aimag(pairs(j))) <= noise) values(i) = real(pairs(j))
             vectors(:, i) = z(:n, j)
-            if (im(j) > 0.0_dp) vectors(:, i) = cmplx(z(:n, j), z(:n, j + 1), dp)
-            if (im(j) < 0.0_dp) vectors(:, i) = cmplx(z(:n, j - 1), -z(:n, j), dp)
         end do
     end subroutine first_order
 

@@ -80,6 +80,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! why a finer run failed
         type(final_state_t) :: half, quarter
         real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
+        real(dp), allocatable :: clock(:)
         type(part_t), target :: part
         real(dp) :: shrinking, step
         logical :: known
@@ -107,8 +108,9 @@ contains
         state%value = first
         state%most = most
         rounding = 2.0_dp*epsilon(most)*most
+        clock = rounding_of_clock(system, seen, most(1))
         state%error = vouched*max(estimate(first, second, third, most, shrinking), &
-                                  rounding + rounding_of_clock(system, seen, most(1)))
+                                  rounding + clock)
         call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, shrinking, &
@@ -117,8 +119,7 @@ contains
             state%error = linger*state%error
         end if
         call by_closed_form(scene, system, seen, closed_form, other, known)
-        if (known) state%error = max(state%error, abs(first - other) + rounding + &
-                                     rounding_of_clock(system, seen, most(1)))
+        if (known) state%error = max(state%error, abs(first - other) + rounding + clock)
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
     end subroutine state_accuracy
 
