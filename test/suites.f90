@@ -123,6 +123,7 @@ module suites
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
+    use test_other_rounding, only: other_rounding_suite
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
@@ -392,6 +393,7 @@ contains
         call suite%addTest(course_oscillators_suite())
         call suite%addTest(course_orbits_suite())
         call suite%addTest(cross_check_suite())
+        call suite%addTest(other_rounding_suite())
         call suite%addTest(second_run_suite())
         call suite%addTest(shipped_files_suite())
         call suite%addTest(sinc_suite())

@@ -34,6 +34,8 @@ contains
         call suite%addTest(TestMethod("one_turn_is_no_period", one_turn_is_no_period))
         call suite%addTest(TestMethod("rows_have_no_part_in_it", rows_have_no_part_in_it))
         call suite%addTest(TestMethod("coarse_samples_give_none", coarse_samples_give_none))
+        call suite%addTest(TestMethod("a_whole_period_between_two_samples", &
+                                      a_whole_period_between_two_samples))
     end function period_suite
 
     subroutine sample(system, reference, first, h, count, period)
@@ -177,4 +179,24 @@ contains
         call assertFalse(period%resolved, "too coarse")
         call assertEqual(0.0_dp, period%period(), message="no period")
     end subroutine coarse_samples_give_none
+
+    subroutine a_whole_period_between_two_samples()
+        !! From shortly before a lower turning point to shortly behind the next one: the velocity
+        !! has changed by less than the accelerations say; from the middle, one way, to that, the
+        !! other way, by more.
+        real(dp), parameter :: period_of_one = 2.0_dp*acos(-1.0_dp)
+        type(oscillator_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: less, more
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        call system%closed_form(0.0_dp, [-1.0_dp], [0.0_dp], reference)
+        call sample(system, reference, -0.1_dp, period_of_one + 0.2_dp, 2, less)
+        call assertEqual(1, less%turns, "there seems to be a turn")
+        call assertFalse(less%resolved, "too coarse")
+        call sample(system, reference, -0.25_dp*period_of_one, 0.5_dp*period_of_one, 2, more)
+        call assertEqual(1, more%turns, "there is a turn")
+        call assertFalse(more%resolved, "too coarse as well")
+    end subroutine a_whole_period_between_two_samples
 end module test_period

@@ -2,6 +2,7 @@ module test_sweep_axis
     !! Axes of a sweep: their values, their names, and what cannot be one.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: built_in, nth_system
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -18,6 +19,12 @@ module test_sweep_axis
     private
     public :: sweep_axis_suite
 
+    type, extends(charged_particle_t) :: underscored_t
+        !! A system whose vector has an underscore in its name.
+    contains
+        procedure :: describe
+    end type underscored_t
+
     character(*), parameter :: double = "&scene system = 'double_pendulum', method = 'rk4', "// &
         "dt = 0.01, duration = 3.005, q = 0.5, 0.2, v = 0.1, 0 / &double_pendulum m2 = 0.7 /"
 
@@ -31,10 +38,33 @@ contains
         call suite%addTest(TestMethod("axes_have_their_ends", axes_have_their_ends))
         call suite%addTest(TestMethod("parameters_of_several_numbers", &
                                       parameters_of_several_numbers))
+        call suite%addTest(TestMethod("components_of_vectors", components_of_vectors))
         call suite%addTest(TestMethod("an_axis_of_any_length", an_axis_of_any_length))
         call suite%addTest(TestMethod("an_axis_is_drawn_by_its_seed", an_axis_is_drawn_by_its_seed))
         call suite%addTest(TestMethod("bad_axes_are_refused", bad_axes_are_refused))
     end function sweep_axis_suite
+
+    pure subroutine describe(self, d)
+        !! `b_field` rather than `magnetic`.
+        class(underscored_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        call self%charged_particle_t%describe(d)
+        where (d%parameters%name == "magnetic") d%parameters%name = "b_field"
+    end subroutine describe
+
+    subroutine components_of_vectors()
+        !! Who writes `b_field_z` means the third one, and is told how it is written.
+        type(underscored_t) :: system
+        type(sweep_axis_t) :: axis
+        type(random_t) :: random
+        type(error_t), allocatable :: error
+
+        call new_sweep_axis(axis, "b_field_z=1:2:3", system, random, error)
+        call assertTrue(allocated(error), "it is refused")
+        call assertEqual("a sweep cannot change 'b_field_z'; write 'b_field(3)'", &
+                         error%message)
+    end subroutine components_of_vectors
 
     subroutine read_axis(text, axis, error, seed)
         !! An axis of the double pendulum.

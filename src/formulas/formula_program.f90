@@ -15,6 +15,7 @@ module lagrangia_formula_program
                                    operator(*), operator(**), operator(+), operator(-), &
                                    operator(/), sgn, sin, sinh, sqrt, tan, tanh
     use lagrangia_kinds, only: dp, lanes
+    use lagrangia_other_rounding, only: round_code_otherwise => round_otherwise
     use lagrangia_sine_cosine, only: sine_cosine
     implicit none (type, external)
     private
@@ -34,6 +35,7 @@ module lagrangia_formula_program
     contains
         generic :: evaluate => evaluate_real, evaluate_hyperdual, evaluate_lanes
         procedure :: run
+        procedure :: round_otherwise
         procedure, private :: evaluate_real
         procedure, private :: evaluate_hyperdual
         procedure, private :: evaluate_lanes
@@ -64,6 +66,16 @@ contains
         self%registers = self%code%registers
         self%places = self%code%outputs
     end subroutine new_formula_program
+
+    subroutine round_otherwise(self)
+        !! From now on each intermediate result is some last digits off.
+        class(formula_program_t), intent(inout) :: self
+
+        if (.not. allocated(self%places)) return  ! nothing has been compiled
+        call round_code_otherwise(self%code)
+        self%registers = self%code%registers
+        self%places = self%code%outputs
+    end subroutine round_otherwise
 
     pure subroutine evaluate_real(self, values, results)
         !! All results at one state.

@@ -5,6 +5,7 @@ module lagrangia_cross_check
     !! coordinate, a sum that always rounds the same way, a clock that has lost the last digits of
     !! the steps. Here none of that is shared: the steps are few and long, and the clock starts at
     !! 0 where the equations do not look at it.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: event_box_t
     use lagrangia_final_state, only: final_state_t
@@ -12,6 +13,7 @@ module lagrangia_cross_check
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
     use lagrangia_reference, only: reference_t
+    use lagrangia_rounding_trial, only: lost_by_rounding, new_rounding_trial
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
@@ -20,6 +22,7 @@ module lagrangia_cross_check
     public :: by_closed_form, by_other_method, new_other_method
 
     real(dp), parameter :: looks = 512.0_dp  !! steps of the other method at least
+    real(dp), parameter :: cancelled = 1e-10_dp  !! six digits of an acceleration's sixteen
 
 contains
 
@@ -44,9 +47,8 @@ contains
 
     subroutine by_other_method(scene, system, seen, events, allowed, state, known)
         !! Time, coordinates and velocities where the run ended, or where in truth the event is that
-        !! ended it. Not known across impacts, or where that would take too long. However smooth the
-        !! motion, its steps are so short that a force which lasts a thousandth of the time cannot
-        !! hide between the stages of `looks` steps.
+        !! ended it. Not known across impacts, or where that would take too long. Where terms of the
+        !! equations cancel, these are rounded otherwise as well; what then cannot be known is NaN.
         type(scene_t), intent(in) :: scene  !! what was run
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(final_state_t), intent(in) :: seen              !! of the run
@@ -54,19 +56,51 @@ contains
         integer(i8), intent(in) :: allowed               !! evaluations
         real(dp), intent(out) :: state(1 + 2*system%ndof)  !! s, coordinates, velocities
         logical, intent(out) :: known  !! else `state` has no meaning
+        class(system_t), allocatable :: trial
+        real(dp) :: lost
+
+        state = 0.0_dp
+        known = system%contacts == 0
+        if (.not. known) return
+        call new_rounding_trial(system, trial)
+        lost = 0.0_dp
+        if (allocated(trial)) lost = lost_by_rounding( &
+            system, trial, [scene%t0, seen%t, scene%t0, seen%t], reshape( &
+            [scene%q, seen%q, 0.5_dp*(scene%q + seen%q), seen%q_most], [system%ndof, 4]), reshape( &
+            [scene%v, seen%v, seen%v_most, 0.5_dp*(scene%v + seen%v)], [system%ndof, 4]))
+        if (lost > cancelled) then
+            call go_other_way(scene, trial, seen, events, allowed, lost, state, known)
+            if (.not. known) state = ieee_value(state, ieee_quiet_nan)
+            known = .true.
+        else
+            call go_other_way(scene, system, seen, events, allowed, 0.0_dp, state, known)
+        end if
+    end subroutine by_other_method
+
+    subroutine go_other_way(scene, system, seen, events, allowed, tolerance, state, known)
+        !! From the start to that end. However smooth the motion, the steps are so short that a
+        !! force which lasts a thousandth of the time cannot hide between the stages of `looks`
+        !! steps.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(final_state_t), intent(in) :: seen
+        type(event_box_t), intent(inout) :: events(:)
+        integer(i8), intent(in) :: allowed
+        real(dp), intent(in) :: tolerance  ! at least
+        real(dp), intent(out) :: state(1 + 2*system%ndof)
+        logical, intent(out) :: known
         class(dense_integrator_t), allocatable :: method
         type(error_t), allocatable :: error
         real(dp) :: q(system%ndof), v(system%ndof), start, elapsed, late, slope, value
         logical :: stopped
 
         state = 0.0_dp
-        known = system%contacts == 0
-        if (.not. known) return
         stopped = seen%t < scene%t0 + scene%duration
         elapsed = merge(seen%t - scene%t0, scene%duration, stopped)
         start = merge(scene%t0, 0.0_dp, system%time_dependent)
         call new_other_method(scene, system, method)
         method%dense = .false.
+        method%tolerance = max(method%tolerance, tolerance)
         method%longest = elapsed/looks
         call method%prepare(system, error)
         if (.not. allocated(error)) call method%start(system, start, scene%q, scene%v, &
@@ -86,7 +120,7 @@ contains
             call go_on(system, seen%t, -late, q, v)
         end if
         state = [seen%t - late, q, v]
-    end subroutine by_other_method
+    end subroutine go_other_way
 
     subroutine new_other_method(scene, system, method)
         !! Not the scene's, at the least tolerance that makes sense from its start.
