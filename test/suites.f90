@@ -153,6 +153,7 @@ module suites
     use test_random_draws, only: random_draws_suite
     use test_reactions, only: reactions_suite
     use test_reduced_motion, only: reduced_motion_suite
+    use test_refusals, only: refusals_suite
     use test_register, only: register_suite
     use test_resources, only: resources_suite
     use test_rheonomic, only: rheonomic_suite
@@ -279,6 +280,7 @@ contains
         call suite%addTest(quadratic_eigen_suite())
         call suite%addTest(random_draws_suite())
         call suite%addTest(reactions_suite())
+        call suite%addTest(refusals_suite())
         call suite%addTest(noether_suite())
         call suite%addTest(same_motion_page_suite())
         call suite%addTest(vakonomic_suite())

@@ -1,6 +1,7 @@
 module test_graded_responses
     !! The table of tried responses in the docs is what the program says, and how often it errs.
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use kept_texts, only: compare_with_kept
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, &
@@ -33,7 +34,7 @@ contains
         !! optimisation a quarter of the random ones is drawn, and their rows are on the page.
         type(group_t) :: groups(7)
         type(error_t), allocatable :: error
-        character(:), allocatable :: text, there
+        character(:), allocatable :: there
         integer :: i, n
 
         n = merge(200, 50, is_optimised())
@@ -51,15 +52,11 @@ contains
         call assertEqual(n, count(groups(4)%of%verdict == is_wrong), "slips are wrong")
         call assertTrue(20*named(groups(4)) >= 19*n, to_text(named(groups(4)))//" are named")
         call assertEqual(count(groups(2)%of%verdict == is_wrong), named(groups(2)), "of the notes")
-        call read_whole_file(page, there, error)
-        if (allocated(error)) there = ""
         if (is_optimised()) then
-            text = page_text(groups)
-            if (there /= text .or. len(there) /= len(text)) call keep(text)
-            call assertTrue(there == text .and. len(there) == len(text), page//" is not what "// &
-                            "the program says; now 'cp "//written//" "//page//"' and look at "// &
-                            "the change")
+            call compare_with_kept(page, page_text(groups))
         else
+            call read_whole_file(page, there, error)
+            if (allocated(error)) there = ""
             do i = 1, size(groups)
                 call assertTrue(index(there, rows_text(groups(i))) > 0, page//" has other rows "// &
                                 "than the program; 'fpm test --profile release' makes it anew")
@@ -179,16 +176,4 @@ contains
         case default; text = "?"
         end select
     end function verdict_text
-
-    subroutine keep(text)
-        !! For whoever brings the page up to date.
-        character(*), intent(in) :: text
-        integer :: unit, status
-
-        open (newunit=unit, file=written, access="stream", form="unformatted", &
-              status="replace", action="write", iostat=status)
-        if (status /= 0) return
-        write (unit) text
-        close (unit)
-    end subroutine keep
 end module test_graded_responses
