@@ -11,6 +11,7 @@ module test_changed_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text, word_t
+    use stated_text, only: is_said
     use test_own_names, only: own_names_suite
     implicit none (type, external)
     private
@@ -37,7 +38,6 @@ contains
         call suite%addTest(TestMethod("what_is_gone_is_left_out", what_is_gone_is_left_out))
         call suite%addTest(TestMethod("steps_and_tolerances_change_places", &
                                       steps_and_tolerances_change_places))
-        call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
         call suite%addTest(TestMethod("a_changed_sweep_has_its_own_title", &
                                       a_changed_sweep_has_its_own_title))
         call suite%addTest(TestMethod("a_changed_sweep_has_its_own_files", &
@@ -335,40 +335,6 @@ contains
         call assertFalse(allocated(error), "one velocity, where the file has none")
         if (.not. allocated(error)) call assertEqual([0.0_dp, 0.2_dp, 0.0_dp], scene%v)
     end subroutine steps_and_tolerances_change_places
-
-    subroutine slips_are_still_refused()
-        !! What the unchanged scene has not either, and what is set itself.
-        character(*), parameter :: start = "&scene system='pendulum' dt=0.1 duration=1 q=1 "
-
-        call refused(start//"columns='t','thta' /", "pendulum%b=0.1", "unknown column 'thta'")
-        call refused(start//"plot='thta' /", "pendulum%b=0.1", "'thta' is none of this scene's")
-        call refused(start//"expect_enrgy=1 /", "pendulum%b=0.1", "unknown key 'expect_enrgy'")
-        call refused(start//"/ &pendulum b=0.1 /", "scene%expect_energy_drift=1", "not conserved")
-        call refused(start//"/", "pendulum%b=0.1;scene%columns=t,energy_drift", "not conserved")
-        call refused(start//"tolerance=1 /", "pendulum%b=0.1", "method 'rk4' takes steps of dt")
-        call refused(start//"every=0 /", "scene%dt=0.01", "every = 0")
-    end subroutine slips_are_still_refused
-
-    subroutine refused(text, settings, reason)
-        !! The scene in `text`, with one or two settings.
-        character(*), intent(in) :: text, settings, reason
-        class(system_t), allocatable :: system
-        type(error_t), allocatable :: error
-        type(run_plan_t) :: plan
-        type(scene_t) :: scene
-        type(word_t), allocatable :: overrides(:)
-        integer :: cut
-
-        cut = index(settings, ";")
-        allocate (overrides(merge(2, 1, cut > 0)))
-        if (cut == 0) cut = len(settings) + 1
-        overrides(1)%text = settings(:cut - 1)
-        if (size(overrides) == 2) overrides(2)%text = settings(cut + 1:)
-        call parse_scene(text, "a.nml", overrides, scene, system, error)
-        if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
-        call assertTrue(allocated(error), text)
-        if (allocated(error)) call assertTrue(index(error%message, reason) > 0, error%message)
-    end subroutine refused
 
     subroutine a_changed_sweep_has_its_own_title()
         !! Of other axes, of other values, of both; one that is given stays.

@@ -19,6 +19,7 @@ module test_constrained_system
     use lagrangia_scene_run, only: run_scene
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
+    use stated_text, only: is_said
     use test_ends_of_constraints, only: ends_of_constraints_suite
     implicit none (type, external)
     private
@@ -404,17 +405,23 @@ contains
     end subroutine within_rounding_nothing_moves
 
     subroutine refusals()
-        call refused("", "t = 1", "contains no coordinate and no velocity")
+        call refused("", "t = 1", "contains no coordinate and no velocity, and so binds nothing")
         call refused("", "x^2 + y^2 = l^2 + (1 + t)^2", "not 0; start elsewhere, such as "// &
-                     "q = 0.0, -1.640121946685672")
-        call refused("", "l = 1", "contains no coordinate and no velocity")
-        call refused("", "x_dot^2 + y_dot^2 = 1", "is not linear in x_dot")
+                     "q = 0.0, -1.6401219466856...")
+        call refused("", "l = 1", "contains no coordinate and no velocity, and so binds nothing")
+        call refused("", "x_dot^2 + y_dot^2 = 1", "is not linear in x_dot; a constraint on "// &
+                                                  "velocities is a sum of terms with one "// &
+                                                  "velocity each")
         call refused("q = 0.0, -1.3, v = 0.0, 0.0", "x_dot + y = 0", "v does not keep the "// &
                      "constraints; give those of y_dot only")
         call refused("", "x + y', 'x - y", "leave nothing that moves")
-        call refused("", "x^2 + y^2 = k", "column 13: unknown name 'k'")
-        call refused("", "x^2 + y^2 =", "column 12")
-        call refused("q = 1.0, 1.0", "x^2 + y^2 = l^2", "constraint 1 is not kept: it gives")
+        call refused("", "x^2 + y^2 = k", "column 13: unknown name 'k'; there are t, x, y, "// &
+                                          "x_dot, y_dot, m, l, g, pi")
+        call refused("", "x^2 + y^2 =", "column 12: a side of the equation is empty; write 0 "// &
+                                        "if it is zero")
+        call refused("q = 1.0, 1.0", "x^2 + y^2 = l^2", "constraint 1 is not kept: it gives "// &
+                                                        "..., not 0; start elsewhere, such "// &
+                                                        "as q = ..., ...")
         call refused("q = 0.0, -1.3, v = 1.0, 1.0", "x^2 + y^2 = l^2", &
                      "v does not keep the constraints; give those of x_dot only")
     contains
@@ -433,7 +440,7 @@ contains
             call read_system("system = 'rod', "//start, group, system, scene, error)
             call assertTrue(allocated(error), "refused: "//constraint)
             if (.not. allocated(error)) return
-            call assertTrue(index(error%message, expected) > 0, error%message)
+            call assertTrue(is_said(error%message, expected), error%message)
             call assertEqual(2, error%status)
         end subroutine refused
     end subroutine refusals

@@ -16,6 +16,7 @@ module test_derivation_rest
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
+    use stated_text, only: is_said
     implicit none (type, external)
     private
     public :: derivation_rest_suite
@@ -252,13 +253,20 @@ contains
 
     subroutine places_are_refused()
         !! One line each, at the formula.
-        call refused("'cos(x) = y'", "'y'")
-        call refused("'tan(x) = 1'", "write a formula of parameters, or 'x = ...', 'cos(x) = ...'")
-        call refused("'x^2 = 4'", "this is the place of x")
-        call refused("'cos(2 x) = 1'", "this is the place of x")
-        call refused("'cos(x) ='", "column 9")
-        call refused("'cos(x) = x'", "an equilibrium depends on x")
-        call refused("'w = 1'", "this is the place of x")
+        call refused("'cos(x) = y'", "'y'; there are t, x, x_dot, w, pi")
+        call refused("'tan(x) = 1'", "write a formula of parameters, or 'x = ...', 'cos(x) = "// &
+                                     "...' or 'sin(x) = ...'")
+        call refused("'x^2 = 4'", "this is the place of x: write a formula of parameters, or "// &
+                                  "'x = ...', 'cos(x) = ...' or 'sin(x) = ...'")
+        call refused("'cos(2 x) = 1'", "this is the place of x: write a formula of "// &
+                                       "parameters, or 'x = ...', 'cos(x) = ...' or 'sin(x) "// &
+                                       "= ...'")
+        call refused("'cos(x) ='", "column 9: a side of the equation is empty; write 0 if it "// &
+                                   "is zero")
+        call refused("'cos(x) = x'", "an equilibrium depends on x, which is not allowed: "// &
+                                     "parameters and numbers only")
+        call refused("'w = 1'", "this is the place of x: write a formula of parameters, or "// &
+                                "'x = ...', 'cos(x) = ...' or 'sin(x) = ...'")
         call refused("'1', '2'", "1, not 2")
     contains
         subroutine refused(equilibrium, expected)
@@ -275,7 +283,7 @@ contains
             call assertTrue(allocated(error), message=equilibrium)
             if (.not. allocated(error)) return
             call assertTrue(index(error%message, "equilibrium") > 0 .and. &
-                            index(error%message, expected) > 0, message=error%message)
+                            is_said(error%message, expected), message=error%message)
             call assertTrue(index(error%message, line_feed) == 0, message=error%message)
         end subroutine refused
     end subroutine places_are_refused

@@ -130,19 +130,22 @@ contains
         call judged("pendulum", &
                     "d theta/dt = p_theta/(m l)", is_wrong)
         call judged("double_pendulum", "V' = 0", is_unreadable, &
-                    "a prime does not say by what; write dV/dtheta1")
+                    "column 2: a prime does not say by what; write dV/dtheta1")
         call judged("pendulum", "theta' = theta_dot", is_right)
         call judged("oscillator", "x' = x + 1", is_unreadable, &
                     "column 2: a prime is no derivative; write x_dot")
         call judged("pendulum", "d/dt m l = 0", is_unreadable, &
-                    "of what is it the derivative?")
+                    "column 1: of what is it the derivative? Write d/dt(m x_dot)")
         call judged("pendulum", "d + 1 = 0", is_unreadable, &
-                    "a derivative is written d/dt(m x_dot), dV/dx")
+                    "column 1: a derivative is written d/dt(m x_dot), dV/dx, d^2 x/dt^2 or x_ddot")
         call judged("double_pendulum", "d/dtheta1 p_theta2 = 0", is_unreadable, &
-                    "the derivative of 'p_theta2' by 'theta1' is not known here; write the formula")
+                    "column 1: the derivative of 'p_theta2' by 'theta1' is not known here; "// &
+                    "write the formula for it")
         call judged("pendulum", "d q/dt = 0", is_unreadable, &
-                    "unknown name 'q'")
+                    "column 1: unknown name 'q'; there are t, theta, m, l, g, b, L_z, "// &
+                    "tension, x_bob, y_bob, z_bob, L, E, p_theta, T, V, omega, theta_eq, pi; "// &
+                    "if it is a constant, write a line 'constant: q'")
         call judged("pendulum", "cos(0,5) = 1", is_unreadable, &
-                    "column 6: ',' has no meaning here; decimals have a point")
+                    "column 6: ',' has no meaning here; decimals have a point: 0.5")
     end subroutine on_what_it_depends
 end module test_differentials

@@ -10,6 +10,7 @@ module test_grading
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
+    use stated_text, only: is_said
     use traced_sheets, only: traced
     use tried_responses, only: graded, printed_statements
     implicit none (type, external)
@@ -392,13 +393,20 @@ contains
         type(homework_t) :: homework
         type(error_t), allocatable :: error
 
-        call refused("", "no line 'system: NAME'")
-        call refused("x = 1", "no line 'system: NAME'")
-        call refused("system: pendulum", "nothing to grade")
-        call refused("system:"//line_feed//"x = 1", "sheet:1: 'system:' needs a name")
+        call refused("", "no line 'system: NAME' says which system this is about; 'lagrangia "// &
+                         "list systems' shows the names")
+        call refused("x = 1", "no line 'system: NAME' says which system this is about; "// &
+                              "'lagrangia list systems' shows the names")
+        call refused("system: pendulum", "nothing to grade; write a line 'left = right', say "// &
+                                         "an equation of motion")
+        call refused("system:"//line_feed//"x = 1", "sheet:1: 'system:' needs a name; "// &
+                                                    "'lagrangia list systems' shows them")
         call refused("system: pendulum"//line_feed//"system: wedge", &
-                     "sheet:2: 'system:' a second time")
-        call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: column 8: what is ")
+                     "sheet:2: 'system:' a second time; one file is about one system")
+        call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: column 8: what "// &
+                                                                  "is 'gravity':? Before a "// &
+                                                                  "colon stands 'system', "// &
+                                                                  "'set', 'constant' or 'small'")
         call refused("system: pendulum"//repeat(line_feed//"theta = theta", 1001), &
                      "sheet:1002: more than 1000 statements")
         call parse_homework("System: pendulum"//repeat(line_feed//"theta = theta", 1000), "sheet", &
@@ -424,7 +432,7 @@ contains
 
             call parse_homework(text, "sheet", homework, error)
             call assertTrue(allocated(error), text(:min(len(text), 80)))
-            if (allocated(error)) call assertTrue(index(error%message, expected) > 0, error%message)
+            if (allocated(error)) call assertTrue(is_said(error%message, expected), error%message)
         end subroutine refused
 
         subroutine unreadable(statement, expected)

@@ -111,7 +111,8 @@ contains
         call judged("charged_particle", &
                     "x = R cos(Omega t)", is_unreadable)
         call judged("pendulum", "theta = A cos(q t)", is_unreadable, &
-                    "what is 'q'?")
+                    "what is 'q'? Write a line before, q = ..., or omega and gamma for what "// &
+                    "the program knows")
     end subroutine motions
 
     subroutine starts()
@@ -141,7 +142,8 @@ contains
 
         call judged("double_pendulum", sheet//"omega_1 = 2.40", is_right, "to the digits given")
         call judged("double_pendulum", sheet//"omega_2 = 5.79", is_right, "to the digits given")
-        call judged("double_pendulum", sheet//"omega_1 = 2.50", is_wrong, "the left side is ")
+        call judged("double_pendulum", sheet//"omega_1 = 2.50", is_wrong, "the left side is "// &
+                                                                          "2.397 or 5.787")
         call judged("double_pendulum", "omega_1 = 2.50", is_definition)
         ! gamma is that of the drag b, which nobody names
         call judged("pendulum", "theta_ddot + 2 gamma theta_dot + g/l sin(theta) = 0", is_right)

@@ -123,19 +123,21 @@ contains
                     "(m_1+m_2)\ddot x + m_2l\ddot\theta\cos\theta -"// &
                     " m_2l\dot\theta^2\sin\theta = 0", is_right)
         call judged("pendulum", "\vec{F} = m g", is_unreadable, &
-                    "column 1: '\vec' is a vector")
+                    "column 1: '\vec' is a vector; write its components, x_dot and y_dot")
         call judged("pendulum", "\frac{g}{l = 0", is_unreadable, &
-                    "column 9: the group is not closed")
+                    "column 9: the group is not closed; write '}'")
         call judged("pendulum", "m \foo = 0", is_unreadable, &
-                    "column 3: '\foo' is not read; write it in plain letters")
+                    "column 3: '\foo' is not read; write it in plain letters, as theta_ddot "// &
+                    "or sqrt(g/l)")
         call judged("pendulum", "m \pm 1 = 0", is_unreadable, &
-                    "column 3: '\pm' has two meanings")
+                    "column 3: '\pm' has two meanings; write a statement with + and one with -")
         call judged("pendulum", "\sqrt[3]{m} = 1", is_unreadable, &
-                    "column 1: '\sqrt[n]' is not read")
+                    "column 1: '\sqrt[n]' is not read; write (x)^(1/3)")
         call judged("pendulum", "\dot{(m l)} = 1", is_unreadable, &
-                    "column 1: dots stand on one letter")
+                    "column 1: dots stand on one letter; write d/dt(...) for what is in braces")
         call judged("pendulum", repeat("{", 99)//"\theta"//repeat("}", 99)//" = \theta", is_right)
         call judged("pendulum", repeat("{", 100)//"\theta"//repeat("}", 100)//" = \theta", &
-                    is_unreadable, "more than 100 groups within each other; give parts of it")
+                    is_unreadable, "column 101: more than 100 groups within each other; give "// &
+                                   "parts of it names")
     end subroutine statements_in_latex
 end module test_pasted_latex

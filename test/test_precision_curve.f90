@@ -2,11 +2,13 @@ module test_precision_curve
     !! The bench's arithmetic on made-up measurements.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
-    use lagrangia_contestant, only: source_gsl, source_ours
-    use lagrangia_kinds, only: dp
+    use lagrangia_command_line, only: word_t
+    use lagrangia_contestant, only: set_by_step, set_by_tolerance, source_gsl, source_ours
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_precision_curve, only: best, confirmed, median, not_known, ratio, time_to_error
+    use lagrangia_printed_table, only: printed_table_t
     use lagrangia_stopwatch, only: repetitions
-    use lagrangia_work_precision, only: best_time, curve_t
+    use lagrangia_work_precision, only: best_time, curve_t, points_table, times_table
     implicit none (type, external)
     private
     public :: precision_curve_suite
@@ -27,6 +29,7 @@ contains
         call suite%addTest(TestMethod("a_lucky_hit_does_not_count", a_lucky_hit_does_not_count))
         call suite%addTest(TestMethod("the_least_of_several_times", the_least_of_several_times))
         call suite%addTest(TestMethod("curves_are_told_apart", curves_are_told_apart))
+        call suite%addTest(TestMethod("tables_are_in_microseconds", tables_are_in_microseconds))
         call suite%addTest(TestMethod("short_runs_are_repeated", short_runs_are_repeated))
     end function precision_curve_suite
 
@@ -130,6 +133,43 @@ contains
             curve%points(:2)%seconds = [seconds, 2.0_dp*seconds]
         end function curve
     end subroutine curves_are_told_apart
+
+    subroutine tables_are_in_microseconds()
+        !! Of seconds; an error of 1e-4 per step^4, so that 10 times the time is 1e-4 of the error.
+        type(curve_t) :: curves(2)
+        type(printed_table_t) :: points, times
+        type(word_t), allocatable :: lines(:)
+        integer :: k
+
+        curves%problem = "P1"
+        curves%source = [source_ours, source_gsl]
+        curves%method = ["rk4    ", "gsl_rk4"]
+        curves%set_by = [set_by_step, set_by_tolerance]
+        curves%coordinates = 3
+        curves%count = 3
+        do k = 1, 3
+            curves%points(k)%setting = 10.0_dp**(-k)
+            curves%points(k)%error = 10.0_dp**(-4*k)
+            curves%points(k)%seconds = [1e-6_dp, 4e-6_dp]*10.0_dp**k
+            curves%points(k)%evaluations = 7_i8*10_i8**k
+        end do
+        call points_table(curves, points)
+        call assertTrue(index(points%object(5), '"method": "gsl_rk4", "set_by": "tolerance", '// &
+                              '"setting": 1.0000000000000000E-002') > 0, points%object(5))
+        call points%lines(huge(1), lines)
+        call assertEqual("P1       gsl_rk4  tolerance   0.0100   1.00e-8  400.0          700", &
+                         lines(6)%text)
+        call times_table(curves, times)
+        call times%lines(huge(1), lines)
+        call assertEqual("P1       rk4      dt                   3        10.0        31.6     "// &
+                         "    178         1000           0.25           0.25    "// &
+                         "       0.25            0.25      1.0e-12", &
+                         lines(2)%text)
+        call assertEqual("P1       gsl_rk4  tolerance            3        40.0         126     "// &
+                         "    711         4000            1.0            1.0    "// &
+                         "        1.0             1.0      1.0e-12", &
+                         lines(3)%text)
+    end subroutine tables_are_in_microseconds
 
     subroutine short_runs_are_repeated()
         !! Until they take long enough, but not for ever.

@@ -252,7 +252,9 @@ contains
         call judged("pendulum", "constant: C, theta"//line_feed//"theta_ddot = C", 0, &
                     "sheet:2: constant: 'theta' has a meaning here; call the constant another name")
         call judged("pendulum", "set: g = 9.81"//line_feed//"constant: 2x"//line_feed// &
-                    "theta_ddot = 0", 0, "sheet:3: constant: '2x' ")
+                    "theta_ddot = 0", 0, "sheet:3: constant: '2x' is no name for a formula; "// &
+                                         "write letters, digits and underscores, a letter "// &
+                                         "first, as in theta1")
         call traced("atwood", "0rrwr", "constant: l; y = l - pi R - x; y_dot = -x_dot"// &
                     "; V = -m1 g x - m2 g y; V = -m1 g x + m2 g y; V = -m1 g x - m2 g (l - x)", &
                     remarks="3 but for a constant")

@@ -15,6 +15,7 @@ module test_written_rotors
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     use lagrangia_written_system, only: written_system_t
+    use stated_text, only: is_said
     implicit none (type, external)
     private
     public :: written_rotors_suite
@@ -114,11 +115,15 @@ contains
         call refused("'wheel: x/R'", syntax)
         call refused("'wheel, I:'", syntax)
         call refused("', I: x/R'", syntax)
-        call refused("'wheel, x: x/R'", "the moment of inertia depends on x, which is not")
-        call refused("'wheel, I: x_dot/R'", "an angle depends on x_dot, which is not")
-        call refused("'wheel, J: x/R'", "column 8: unknown name 'J'")
-        call refused("'wheel, I: y/R'", "column 11: unknown name 'y'")
-        call refused("'a, I: x/R', 'a, I: x'", "the name 'a' is given twice")
+        call refused("'wheel, x: x/R'", "the moment of inertia depends on x, which is not "// &
+                                        "allowed: parameters and numbers only")
+        call refused("'wheel, I: x_dot/R'", "an angle depends on x_dot, which is not "// &
+                                            "allowed: the time, coordinates and parameters")
+        call refused("'wheel, J: x/R'", "column 8: unknown name 'J'; there are t, x, x_dot, "// &
+                                        "m, I, R, k, pi")
+        call refused("'wheel, I: y/R'", "column 11: unknown name 'y'; there are t, x, x_dot, "// &
+                                        "m, I, R, k, pi")
+        call refused("'a, I: x/R', 'a, I: x'", "the name 'a' is given twice; take another one")
     contains
         subroutine refused(texts, message)
             character(*), intent(in) :: texts, message
@@ -130,7 +135,7 @@ contains
             if (.not. allocated(error)) return
             call assertEqual(status_usage, error%status)
             call assertTrue(index(error%message, "rotors") > 0 .and. &
-                            index(error%message, message) > 0, texts//": "//error%message)
+                            is_said(error%message, message), texts//": "//error%message)
         end subroutine refused
     end subroutine what_is_refused
 

@@ -14,6 +14,7 @@ module test_wrong_words
     use lagrangia_usual_keys, only: usual_key, usual_names
     use lagrangia_vocabulary, only: words_of
     use lagrangia_wrong_words, only: check_arguments
+    use stated_text, only: is_said
     implicit none (type, external)
     private
     public :: wrong_words_suite
@@ -34,6 +35,7 @@ contains
                                       options_stand_behind_hyphens))
         call suite%addTest(TestMethod("other_programs_names", other_programs_names))
         call suite%addTest(TestMethod("formulas_need_quotes", formulas_need_quotes))
+        call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
         call suite%addTest(TestMethod("other_texts_need_quotes", other_texts_need_quotes))
         call suite%addTest(TestMethod("lists_are_shown", lists_are_shown))
         call suite%addTest(TestMethod("texts_are_no_lists", texts_are_no_lists))
@@ -188,7 +190,9 @@ contains
                            "you mean 'theta_dot'?")
         call refused_scene(start//"columns = 'Time' /", "did you mean 't'?")
         call refused_scene(start//"columns = 'E' /", "did you mean 'energy'?")
-        call refused_scene(start//"columns = 'x' /", "unknown column 'x'; pendulum has t, theta")
+        call refused_scene(start//"columns = 'x' /", "unknown column 'x'; pendulum has t, "// &
+                                                     "theta, theta_dot, theta_ddot, energy, "// &
+                                                     "energy_drift, L_z, tension, x_bob, y_bob")
         do i = 1, size(usual_names)
             call assertTrue(any(keys == usual_key(trim(usual_names(i)))), usual_names(i))
             call assertFalse(any(keys == usual_names(i)), usual_names(i))
@@ -309,22 +313,52 @@ contains
                      "is needed, nothing is computed; write 0.5")
     end subroutine other_reasons_stay
 
+    subroutine slips_are_still_refused()
+        !! What the unchanged scene has not either, and what is set itself.
+        character(*), parameter :: start = "&scene system='pendulum' dt=0.1 duration=1 q=1 "
+
+        call changed(start//"columns='t','thta' /", "pendulum%b=0.1", &
+                     "unknown column 'thta'; did you mean 'theta'?")
+        call changed(start//"plot='thta' /", "pendulum%b=0.1", &
+                     "'thta' is none of this scene's columns; did you mean 'theta'?")
+        call changed(start//"expect_enrgy=1 /", "pendulum%b=0.1", &
+                     "unknown key 'expect_enrgy'; did you mean 'expect_energy'?")
+        call changed(start//"/ &pendulum b=0.1 /", "scene%expect_energy_drift=1", &
+                     "not conserved, for generalised forces do work")
+        call changed(start//"/", "pendulum%b=0.1;scene%columns=t,energy_drift", "not "// &
+                     "conserved, for generalised forces do work; there is 'energy_balance_drift'")
+        call changed(start//"tolerance=1 /", "pendulum%b=0.1", "method 'rk4' takes steps of "// &
+                     "dt; methods that keep a tolerance: gauss16, dop853")
+        call changed(start//"every=0 /", "scene%dt=0.01", "every = 0: at least 1 is needed")
+    contains
+        subroutine changed(text, settings, message)
+            character(*), intent(in) :: text, settings, message
+
+            call refused_scene(text, message, settings)
+        end subroutine changed
+    end subroutine slips_are_still_refused
+
     subroutine refused_scene(text, message, setting)
-        !! Assert that the scene, perhaps with a setting, is refused, and that the message has this.
+        !! Assert that the scene, perhaps with settings, is refused, and that the message ends so.
         character(*), intent(in) :: text, message
-        character(*), intent(in), optional :: setting
+        character(*), intent(in), optional :: setting  !! one, or two with `;` between them
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(run_plan_t) :: plan
         type(scene_t) :: scene
         type(word_t), allocatable :: overrides(:)
+        integer :: cut
 
-        allocate (overrides(merge(1, 0, present(setting))))
-        if (present(setting)) overrides(1)%text = setting
+        allocate (overrides(0))
+        if (present(setting)) then
+            cut = index(setting, ";")
+            if (cut > 0) overrides = [word_t(setting(:cut - 1))]
+            overrides = [overrides, word_t(setting(cut + 1:))]
+        end if
         call parse_scene(text, "a.nml", overrides, scene, system, error)
         if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
         call assertTrue(allocated(error), text)
-        if (allocated(error)) call assertTrue(index(error%message, message) > 0, error%message)
+        if (allocated(error)) call assertTrue(is_said(error%message, message), error%message)
     end subroutine refused_scene
 
     subroutine one_argument_is_enough()

@@ -103,7 +103,7 @@ contains
     end subroutine graded
 
     subroutine judged(system, statement, expected, remark)
-        !! Assert the verdict on the last statement of several lines, and words of its remark.
+        !! Assert the verdict on the last statement of several lines, and its remark.
         character(*), intent(in) :: system, statement
         integer, intent(in) :: expected
         character(*), intent(in), optional :: remark
@@ -112,7 +112,7 @@ contains
 
         call graded(system, statement, verdict, said)
         call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
-        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
+        if (present(remark)) call assertEqual(remark, said, statement)
     end subroutine judged
 
     subroutine responses_by_hand(group)

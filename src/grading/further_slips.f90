@@ -11,9 +11,9 @@ module lagrangia_further_slips
     use lagrangia_letter_products, only: find_product, letter_t
     use lagrangia_sample_names, only: draws, role_coordinate, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes, summands
-    use lagrangia_slip_search, only: context, holds
+    use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
-    use lagrangia_term_search, only: gather_letters, library_t, number_text, part_text
+    use lagrangia_term_search, only: context, gather_letters, library_t, number_text, part_text
     use lagrangia_written_out, only: energy_formulas, energy_places, written_out
     implicit none (type, external)
     private

@@ -12,7 +12,7 @@ module lagrangia_judged_equality
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: change_sign, change_t
-    use lagrangia_slip_search, only: context, explain_slip, holds, is_trivial
+    use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
@@ -20,7 +20,7 @@ module lagrangia_judged_equality
     use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
-    use lagrangia_term_search, only: library_t, part_text
+    use lagrangia_term_search, only: context, library_t, part_text
     use lagrangia_text, only: quoted
     use lagrangia_unknown_names, only: hidden
     use lagrangia_verdict, only: but_for_constant, is_right, is_unreadable, is_wrong, &

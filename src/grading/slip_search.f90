@@ -14,12 +14,12 @@ module lagrangia_slip_search
                                          change_exponent, change_factor, change_function, &
                                          change_multiplied, change_number, change_sign, &
                                          change_symbol, change_t, evaluate_nodes, summands
-    use lagrangia_term_search, only: library_t, number_text, part_text, try_factors, &
+    use lagrangia_term_search, only: context, library_t, number_text, part_text, try_factors, &
                                      try_missing_terms, try_products
     use lagrangia_wide_changes, only: place_from, throughout, two_factors
     implicit none (type, external)
     private
-    public :: context, explain_slip
+    public :: explain_slip
     public :: holds, is_trivial
 
     real(dp), parameter :: zero = 1e-9_dp   !! of the sizes of what is added up
@@ -28,19 +28,28 @@ module lagrangia_slip_search
 contains
 
     subroutine holds(expression, values, yes, judged, change)
-        !! Does the formula vanish at every sample? `judged` if it has a value at enough of them.
+        !! Does the formula vanish at every sample? `judged` if it has a value at enough of them. An
+        !! exponent of -1 makes none where rounding leaves nothing of it: sin(1/theta) at 1e-9.
         type(expression_t), intent(in) :: expression    !! left side less right side
         real(dp), intent(in) :: values(:, :)            !! of the symbols, (samples, symbols)
         logical, intent(out) :: yes                     !! it does
         logical, intent(out) :: judged                  !! it is known
         type(change_t), intent(in), optional :: change  !! of one node
         real(dp), dimension(size(values, 1), expression%count) :: results, sizes
+        real(dp), allocatable :: signs(:)
+        integer, allocatable :: nodes(:)
         logical :: finite(size(values, 1))
         integer :: n
 
         call evaluate_nodes(expression, values, results, change, sizes)
         n = expression%count
         finite = ieee_is_finite(results(:, n)) .and. ieee_is_finite(sizes(:, n))
+        if (present(change)) then
+            if (change%kind == change_exponent .and. change%factor < 0.0_dp) then
+                call summands(expression, nodes, signs)
+                finite = finite .and. zero*sizes(:, n) <= maxval(abs(results(:, nodes)), 2)
+            end if
+        end if
         judged = count(finite) >= min(enough, size(values, 1))
         yes = judged .and. all(abs(results(:, n)) <= zero*sizes(:, n) .or. .not. finite)
     end subroutine holds
@@ -84,7 +93,9 @@ contains
         if (remark == "") call try_products(expression, first, samples, values, library, remark)
         if (remark == "") call try_missing_terms(expression, samples, values, library, remark, &
                                                  explanation%lacks, explanation%is_vague)
-        if (remark == "") call try_inner_factors(remark)
+        explanation%text = remark
+        if (remark /= "" .or. explanation%is_vague) return
+        call try_inner_factors(remark)
         if (remark == "") call try_throughout(remark)
         if (remark == "") call two_factors(expression, samples, values, library, &
                                            could_be_trivial, remark)
@@ -407,43 +418,4 @@ contains
         yes = (a == role_parameter .and. b == role_parameter) .or. (any(moving == a) .and. &
             any(moving == b))
     end function exchangeable
-
-    function context(expression, samples, i) result(text)
-        !! ` in 'the summand'`, where node `i` is only a part of one.
-        type(expression_t), intent(in) :: expression  !! left side less right side
-        type(samples_t), intent(in) :: samples        !! know the names
-        integer, intent(in) :: i                      !! a node
-        character(:), allocatable :: text
-        integer, allocatable :: nodes(:)
-        real(dp), allocatable :: signs(:)
-        integer :: k, n
-
-        text = ""
-        call summands(expression, nodes, signs)
-        do k = 1, size(nodes)
-            if (nodes(k) <= i) cycle
-            n = nodes(k)
-            if (.not. contains_node(expression, n, i)) cycle
-            text = " in "//part_text(expression, n, samples)
-            return
-        end do
-    end function context
-
-    pure function contains_node(expression, root, i) result(yes)
-        !! Is node `i` a part of what is at `root`?
-        type(expression_t), intent(in) :: expression
-        integer, intent(in) :: root, i
-        logical :: yes
-        logical :: needed(0:expression%count)
-        integer :: k
-
-        needed = .false.
-        needed(root) = .true.
-        do k = root, i + 1, -1
-            if (.not. needed(k)) cycle
-            needed(expression%nodes(k)%left) = .true.
-            needed(expression%nodes(k)%right) = .true.
-        end do
-        yes = needed(i)
-    end function contains_node
 end module lagrangia_slip_search

@@ -14,7 +14,8 @@ module lagrangia_term_search
     private
     public :: library_t
     public :: gather_letters
-    public :: number_text, part_text, try_factors, try_missing_terms, try_products
+    public :: context, number_text, part_text
+    public :: try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
     real(dp), parameter :: pi = acos(-1.0_dp)
@@ -40,6 +41,45 @@ contains
         if (part%count == 1) text = typed_name(text)
         text = "'"//text//"'"
     end function part_text
+
+    function context(expression, samples, i) result(text)
+        !! ` in 'the summand'`, where node `i` is only a part of one.
+        type(expression_t), intent(in) :: expression  !! left side less right side
+        type(samples_t), intent(in) :: samples        !! know the names
+        integer, intent(in) :: i                      !! a node
+        character(:), allocatable :: text
+        integer, allocatable :: nodes(:)
+        real(dp), allocatable :: signs(:)
+        integer :: k, n
+
+        text = ""
+        call summands(expression, nodes, signs)
+        do k = 1, size(nodes)
+            if (nodes(k) <= i) cycle
+            n = nodes(k)
+            if (.not. contains_node(expression, n, i)) cycle
+            text = " in "//part_text(expression, n, samples)
+            return
+        end do
+    end function context
+
+    pure function contains_node(expression, root, i) result(yes)
+        !! Is node `i` a part of what is at `root`?
+        type(expression_t), intent(in) :: expression
+        integer, intent(in) :: root, i
+        logical :: yes
+        logical :: needed(0:expression%count)
+        integer :: k
+
+        needed = .false.
+        needed(root) = .true.
+        do k = root, i + 1, -1
+            if (.not. needed(k)) cycle
+            needed(expression%nodes(k)%left) = .true.
+            needed(expression%nodes(k)%right) = .true.
+        end do
+        yes = needed(i)
+    end function contains_node
 
     subroutine try_factors(expression, first, samples, values, library, remark, is_surplus, &
                            is_vague)
@@ -197,7 +237,8 @@ contains
 
     subroutine try_missing_terms(expression, samples, values, library, remark, lacks, is_vague)
         !! A right term which, some times, perhaps with letters, makes the sum zero. Without the
-        !! letters it is named only if it varies with the state: of constants alone, any would do.
+        !! letters it is named only if it varies with the state, for of constants alone any would
+        !! do, and is not there in some number.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
         type(samples_t), intent(in) :: samples            !! know the names
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
@@ -225,16 +266,30 @@ contains
                 exit
             end if
             if (remark == "" .and. .not. is_constant(needed) .and. &
-                .not. is_steady(term(:, library(k)%term%count))) remark = "a term with "// &
-                formula_text(library(k)%term, samples%symbols)//" is missing"
+                .not. is_steady(term(:, library(k)%term%count))) then
+                is_vague = .true.
+                if (.not. is_there()) remark = "a term with "// &
+                    formula_text(library(k)%term, samples%symbols)//" is missing"
+            end if
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
             lacks = formula_text(simplified(product*library(k)%term, samples%symbols), &
                                  samples%symbols)
             exit
         end do
-        is_vague = remark /= "" .and. .not. allocated(lacks)
+        is_vague = is_vague .and. .not. allocated(lacks)
         if (allocated(lacks)) remark = "on the left is missing "//lacks
+    contains
+        logical function is_there()
+            !! Some summand is this term but for a factor.
+            integer, allocatable :: nodes(:)
+            real(dp), allocatable :: signs(:)
+            integer :: i
+
+            call summands(expression, nodes, signs)
+            is_there = any([(is_steady(results(:, nodes(i))/term(:, library(k)%term%count)), &
+                             i=1, size(nodes))])
+        end function is_there
     end subroutine try_missing_terms
 
     subroutine prepare(expression, samples, values, library, results, letters)
