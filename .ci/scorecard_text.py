@@ -17,7 +17,7 @@ def near(shown, value, digits):
 
 text = open(sys.argv[1]).read()
 for line in text.splitlines():
-    assert len(line) <= 80, line
+    assert len(line) <= 80 or line.split()[-1].startswith("/"), line  # a path is as long as it is
 lines = text[:text.index("\nmethod   of the steps;")].splitlines()
 assert lines[0].split() == ["scene", "method", "drift", "error", "verdict"], lines[0]
 rows = json.load(open(sys.argv[2]))

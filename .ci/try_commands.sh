@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
 # The built program as a user types it: what it prints, the status it ends with, the files it leaves.
-# Give the program's path, or build it first: fpm build --profile release.
+# Give the program's path, or build it first: fpm build --profile release. What it says of each refusal
+# stands whole in .ci/pages/refused_by_commands.txt; where that is meant to change:
+#
+#   try_commands.sh PROGRAM --accept
 set -u
 cd "$(dirname "$0")/.." || exit 2
 program=${1:-}
@@ -41,9 +44,19 @@ one_line() { # one line of at most 300 bytes on stderr, by us, and no backtrace
     [ "$(wc -l <"$work/err")" -eq 1 ] && [ "$(wc -c <"$work/err")" -le 301 ] && grep -q '^lagrangia: ' "$work/err" && ! grep -qi 'backtrace\|#0 ' "$work/err"
 }
 
+kept=.ci/pages/refused_by_commands.txt
+accept=${2:-}
+[ "$accept" != --accept ] || : >"$kept"
+
 refuses() { # refuses STATUS TEXT WORDS...: one line on stderr with TEXT, no blanks but the user's that are too many, nothing on stdout, this status
     local text=$2 words=${*:3}
     run "${@:3}"
+    if [ "$(wc -c <"$work/err")" -lt 230 ]; then # what is longer may be cut, by the length of a path
+        local said # without digits that may be another processor's
+        said=$(printf '%.120s: %s' "${words//"$work"/WORK}" "$(cat "$work/err")" | tr '\n' ' ' | sed "s|$work|WORK|g; s/\(\.[0-9]\{6\}\)[0-9]*/\1/g")
+        [ "$accept" != --accept ] || printf '%s\n' "$said" >>"$kept"
+        check "kept word for word: ${*:3}" grep -qxF -- "$said" "$kept"
+    fi
     check "status $1: ${*:3}" eval '[ $status -eq '"$1"' ] && one_line && [ ! -s "$work/out" ] && grep -qF -- "$text" "$work/err" && { [[ $words = *"  "* ]] || ! grep -q "  \| $" "$work/err"; }'
 }
 
