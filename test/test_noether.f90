@@ -30,7 +30,7 @@ contains
 
     subroutine null_spaces()
         !! Of \((1, 2, 3)\), three times: two vectors, across it and each other; of a regular
-        !! matrix none; too few rows and NaN are refused.
+        !! matrix none, of zeros all; too few rows and NaN are refused.
         real(dp), allocatable :: basis(:, :)
         type(error_t), allocatable :: error
         real(dp) :: matrix(3, 3), nan
@@ -47,6 +47,8 @@ contains
         matrix(3, 3) = -1.0_dp
         call null_space(matrix, basis, error)
         call assertEqual([3, 0], shape(basis), "regular")
+        call null_space(0.0_dp*matrix, basis, error)
+        call assertEqual([3, 3], shape(basis), "nothing but zeros: every vector")
         call null_space(matrix(:2, :), basis, error)
         call assertTrue(allocated(error), "too few rows")
         nan = 0.0_dp

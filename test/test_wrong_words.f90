@@ -349,12 +349,11 @@ contains
         type(word_t), allocatable :: overrides(:)
         integer :: cut
 
-        allocate (overrides(0))
-        if (present(setting)) then
-            cut = index(setting, ";")
-            if (cut > 0) overrides = [word_t(setting(:cut - 1))]
-            overrides = [overrides, word_t(setting(cut + 1:))]
-        end if
+        cut = 0
+        if (present(setting)) cut = index(setting, ";")
+        allocate (overrides(merge(1, 0, present(setting)) + merge(1, 0, cut > 0)))
+        if (cut > 0) overrides(1)%text = setting(:cut - 1)
+        if (present(setting)) overrides(size(overrides))%text = setting(cut + 1:)
         call parse_scene(text, "a.nml", overrides, scene, system, error)
         if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
         call assertTrue(allocated(error), text)
