@@ -121,6 +121,7 @@ contains
         call becomes("m g (x + r)/(m + m1) - m g x/(m + m1)", "m g/(m + m1) r")
         call becomes("9.81 m x - 0.1 x + 1e-3 x", "(9.81 m - 0.099) x")
         call becomes("1/3 x + 1/6 x", "1/2 x")
+        call becomes("m/x^a + l/x^2 - x/x^(m + 1)", "-x/x^(m + 1) + m/x^a + l/x^2")
         call becomes("2^0.5 x + (k/m)^(1/2) t", "sqrt(k/m) t + sqrt(2) x")
         call becomes("(m1 + m2) g/(m1 l)", "(m1 + m2) g/(m1 l)")
         call becomes("(g/l + k/m) theta", "(g/l + k/m) theta")

@@ -4,6 +4,7 @@ module test_typed_homeworks
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_homework, only: homework_t, parse_homework
+    use lagrangia_judgement, only: is_unreadable
     use lagrangia_sheet_lines, only: is_remark
     use traced_sheets, only: traced
     use tried_responses, only: judged
@@ -249,6 +250,9 @@ contains
         call traced("pendulum", "rw", "constant: h, C; theta_dot = sqrt(2/(m l^2) "// &
                     "(h + m g l cos(theta))); theta_dot^2/2 = -g/l cos(theta) + h")
         call traced("kepler", "r", "constant: H0; m/2 r_dot^2 + p_phi^2/(2 m r^2) - k/r = H0")
+        call judged("pendulum", "constant: C"//line_feed//"theta_dot^2 = 2 g/l (cos(theta) - "// &
+                    "cos(theta_0)) + C", is_unreadable, "is 'theta_0' where the motion begins? "// &
+                    "It does not hold there; a line 'constant: theta_0' makes it any constant")
         call judged("pendulum", "constant: C, theta"//line_feed//"theta_ddot = C", 0, &
                     "sheet:2: constant: 'theta' has a meaning here; call the constant another name")
         call judged("pendulum", "set: g = 9.81"//line_feed//"constant: 2x"//line_feed// &
