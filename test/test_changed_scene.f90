@@ -7,11 +7,10 @@ module test_changed_scene
     use lagrangia_kinds, only: dp
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene, read_scene, read_unchanged
+    use lagrangia_scene_reader, only: read_scene, read_unchanged
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text, word_t
-    use stated_text, only: is_said
     use test_own_names, only: own_names_suite
     implicit none (type, external)
     private

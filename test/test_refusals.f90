@@ -1,6 +1,6 @@
 module test_refusals
-    !! What is said of nonsense: the same words as in the files `test/refusals`, which a person has
-    !! read. Scenes, command lines and formulas are those of users, changed at random.
+    !! What is said of nonsense: the same words as are kept in the files `test/refusals`. Scenes,
+    !! command lines and formulas are those of users, changed at random.
     use funit, only: TestMethod, TestSuite, assertFalse
     use kept_texts, only: compare_with_kept
     use lagrangia_characters, only: printable
