@@ -2,6 +2,7 @@ module lagrangia_rounding_trial
     !! A system whose equations are formulas, with other rounding in each of their operations: where
     !! both differ by more than rounding, terms cancel, and finer runs agree upon what is wrong.
     use lagrangia_constrained_system, only: constrained_system_t
+    use lagrangia_formula_program, only: formula_program_t
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
     use lagrangia_written_system, only: written_system_t
@@ -16,7 +17,6 @@ contains
         class(system_t), intent(in) :: system  !! with its parameters
         class(system_t), allocatable, intent(out) :: trial
         !! not allocated where the equations are no formulas
-        integer :: i
 
         select type (system)
         class is (written_system_t)
@@ -25,17 +25,23 @@ contains
         if (.not. allocated(trial)) return
         select type (trial)
         class is (written_system_t)
-            do i = 1, size(trial%programs)
-                call trial%programs(i)%round_otherwise()
-            end do
+            call round_all(trial%programs)
         end select
         select type (trial)
         class is (constrained_system_t)
-            do i = 1, size(trial%links)
-                call trial%links(i)%round_otherwise()
-            end do
+            call round_all(trial%links)
         end select
     end subroutine new_rounding_trial
+
+    subroutine round_all(programs)
+        !! From now on otherwise.
+        type(formula_program_t), intent(inout) :: programs(:)
+        integer :: i
+
+        do i = 1, size(programs)
+            call programs(i)%round_otherwise()
+        end do
+    end subroutine round_all
 
     pure function lost_by_rounding(system, trial, t, q, v) result(lost)
         !! By how much accelerations of both differ, beside the largest at any of these states: a
