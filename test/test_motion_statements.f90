@@ -7,7 +7,7 @@ module test_motion_statements
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: to_text, word_t
     use tried_responses, only: judged
     implicit none (type, external)
     private
@@ -30,6 +30,8 @@ contains
 
     subroutine motions()
         !! Right if they solve the equation of motion or the linearised one.
+        integer :: i
+
         call judged("pendulum", &
                     "theta(t) = A cos(omega t + phi)", is_right)
         call judged("pendulum", &
@@ -81,6 +83,10 @@ contains
                     "theta1 = A_1 cos(omega_1 t + phi_1) + A_2 cos(omega_2 t + phi_2)", is_right)
         call judged("double_pendulum", &
                     "theta1 = A cos(sqrt(g/l1) t)", is_wrong)
+        do i = 3, 4  ! of other modes than there are, of the other equilibrium and of none
+            call judged("double_pendulum", "theta1 = A cos(w"//to_text(i)//" t)", is_wrong, &
+                        "'w"//to_text(i)//"' is the frequency of no mode; there are 2")
+        end do
         call judged("cart_pendulum", &
                     "theta = A cos(omega t)", is_right)
         call judged("cart_pendulum", &

@@ -196,6 +196,21 @@ contains
         call traced("double_pendulum", "rwr", &
                     "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2/2;"// &
                     "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2; cos(theta1 - theta2) ~ 1")
+        ! of equations of motion, about either equilibrium, counted from it or not
+        call traced("pendulum", "rwfrf", "theta_ddot ~ -g/l (theta - theta^3/6);"// &
+                    "theta_ddot ~ -g/l theta + g/(5 l) theta^3; theta_ddot ~ -g/l theta + "// &
+                    "theta^2; small: l theta_ddot = -g theta + g theta^3/6; small: l theta_ddot"// &
+                    " = -g theta + g theta^5/120", "2 terms of order 3 are written")
+        call traced("pendulum", "w", "theta_ddot ~ -g/l theta + theta^2", &
+                    "1 terms of order 2 are written")
+        call traced("pendulum", "w", "small: m g theta^5 = 120 (m l theta_ddot + m g theta)", &
+                    "1 terms of order 5 are written")
+        call traced("pendulum", "rrwrfrw", "theta_eq = pi; theta_ddot ~ g/l (theta - pi) - "// &
+                    "g/(6 l) (theta - pi)^3; theta_ddot ~ g/l (theta - pi) - g/(3 l) "// &
+                    "(theta - pi)^3; theta_ddot ~ g/l theta - g/(6 l) theta^3; theta_ddot ~ "// &
+                    "g/l theta + g/(6 l) theta^3; sin(theta) ~ -(theta - pi) + (theta - pi)^3/6"// &
+                    "; sin(theta) ~ -(theta - pi) + (theta - pi)^3/5", "3 terms of order 3 are "// &
+                    "written; 7 terms of order 3 are written")
         call traced("pendulum", "rwrr", "theta cos(theta) ~ theta - theta^3/2;"// &
                     "theta cos(theta) ~ theta - theta^3; cos(theta)^2 ~ 1 - sin(theta)^2;"// &
                     "theta/cos(theta) ~ theta + theta^3/2")

@@ -246,6 +246,18 @@ contains
         call judged("spring_pendulum", "small: m r_ddot + k r = 0", is_right, &
                     "if the coordinates are counted from the equilibrium")
         call wrong("spring_pendulum", "small: m r_ddot + 2 k r = 0", "")
+        call judged("pendulum", "theta_eq = pi"//line_feed//"small: theta_ddot = g/l theta", &
+                    is_right, "if the coordinates are counted from the equilibrium")
+        call judged("pendulum", "theta_ddot ~ g/l (theta - pi)", is_right, &
+                    "another equilibrium than that at or near zero")
+        call wrong("pendulum", "theta_ddot ~ -g/l (theta - pi)", "")
+        ! a third one, and the second one still
+        call traced("rotating_hoop", "rrrrwrr", "theta_eq = pi"// &
+            "; small: theta_ddot = (g/r + omega^2) theta; theta_ddot ~ (g/r + omega^2) theta"// &
+            "; small: theta_ddot = (g/r + omega^2) (theta - pi)"// &
+            "; small: theta_ddot = -(g/r + omega^2) theta"// &
+            "; small: theta_ddot = -(omega^2 - g^2/(omega r)^2) theta"// &
+            "; small: theta_ddot = (omega^2 - g/r) theta")
         call right("pendulum", "small: theta_ddot = -omega omega theta")
         call right("pendulum", "small: l theta_ddot + g theta + theta_dot^2 = 0")
         call right("double_pendulum", "small: sin(D) = D")

@@ -81,7 +81,7 @@ contains
 
         path = name
         facts = look_at(name)
-        if (facts%found .or. name == "") return
+        if (facts%found .or. facts%barred .or. name == "") return  ! the reader says what bars it
         call shipped_files(folder, paths)
         allocate (names(size(paths)))
         do i = 1, size(paths)

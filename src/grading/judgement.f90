@@ -5,6 +5,7 @@ module lagrangia_judgement
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_constants_of_motions, only: put_on_motion
     use lagrangia_derivative, only: time_derivative
+    use lagrangia_equality_signs, only: read_signs
     use lagrangia_expression, only: expression_t, kind_difference, kind_symbol
     use lagrangia_homework, only: statement_t
     use lagrangia_judged_line, only: judge_line, read_equals
@@ -13,7 +14,7 @@ module lagrangia_judgement
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: role_parameter, samples_t
     use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium, keep_origin, &
-                                           put_inverted, put_root
+                                           put_inverted, put_root, put_stated
     use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -39,7 +40,9 @@ contains
         type(statement_t) :: partial
         type(judgement_t) :: attempt
         type(samples_t) :: before
+        character(:), allocatable :: plain
         integer :: which
+        logical, allocatable :: nearly(:)
         logical :: found, total
 
         partial = statement
@@ -79,8 +82,9 @@ contains
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
-        if (judgement%verdict == is_wrong .and. statement%small) call try_elsewhere( &
-            partial, samples, library, judgement)
+        call read_signs(partial%text, plain, nearly)
+        if (judgement%verdict == is_wrong .and. (statement%small .or. any(nearly))) call &
+            try_elsewhere(partial, samples, library, judgement)
         if (judgement%verdict /= is_wrong .or. .not. explain) return
         call say_constants(samples, judgement)
         ! dL/dt may be meant at rest, too
@@ -121,7 +125,8 @@ contains
     end subroutine try_pairs
 
     subroutine try_elsewhere(statement, samples, library, judgement)
-        !! `small: theta_ddot = g/l (theta - pi)` says where; of one without a place that would be
+        !! A line before may have said where, and `small: theta_ddot = g/l (theta - pi)` says it;
+        !! of one without a place that would be
         !! right of the upper equilibrium it is said how to say so.
         type(statement_t), intent(in) :: statement      !! wrong
         type(samples_t), intent(in) :: samples          !! know other equilibria
@@ -132,6 +137,13 @@ contains
         logical :: found
 
         if (judgement%residual%count == 0) return
+        there = samples
+        call put_stated(there, found)
+        if (found) then
+            call judge_line(statement, there, library, .false., attempt)
+            if (attempt%verdict == is_right) judgement = attempt
+            if (attempt%verdict == is_right) return
+        end if
         there = samples
         call put_root(judgement%residual, there, found)
         if (found) then

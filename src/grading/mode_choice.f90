@@ -54,8 +54,6 @@ contains
         do draw = 1, draws
             first = (draw - 1)*states
             associate (rows => values(first + 1:first + states, :))
-                rows(:, samples%frequency:samples%frequency + 1) = ieee_value(1.0_dp, &
-                                                                              ieee_quiet_nan)
                 yes = .false.
                 do k = size(omega2, 2), 1, -1
                     if (omega2(draw, k) <= 0.0_dp .and. needs_root) cycle

@@ -12,8 +12,8 @@ module lagrangia_motion_statements
     use lagrangia_kept_motions, only: is_same_motion, keep_motion
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
-    use lagrangia_motion_values, only: draw_values, put_frequencies, rate_of, unknown_rate, &
-                                       values_of
+    use lagrangia_motion_values, only: draw_values, no_such_mode, put_frequencies, rate_of, &
+                                       unknown_rate, values_of
     use lagrangia_rounded_numbers, only: put_exact_frequencies, to_digits, try_rounded
     use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
     use lagrangia_slip_search, only: holds
@@ -22,6 +22,7 @@ module lagrangia_motion_statements
     use lagrangia_statement_forms, only: period
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_text, only: to_text
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
     use lagrangia_written_out, only: equation_of_motion
     implicit none (type, external)
@@ -345,8 +346,12 @@ contains
         is_one = .true.
         judgement%verdict = merge(is_right, is_wrong, yes)
         if (.not. yes) then
-            if (judgement%remark == "") judgement%remark = "it does not solve the linearised "// &
-                "equations of motion"
+            if (judgement%remark == "" .and. no_such_mode(f, samples) /= "") then
+                judgement%remark = "'"//no_such_mode(f, samples)//"' is the frequency of no "// &
+                    "mode; there are "//to_text(samples%ndof)
+            else if (judgement%remark == "") then
+                judgement%remark = "it does not solve the linearised equations of motion"
+            end if
         else if (counted == 1) then
             judgement%remark = "of small oscillations, if the coordinates are counted from the "// &
                                "equilibrium"

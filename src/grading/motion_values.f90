@@ -8,7 +8,8 @@ module lagrangia_motion_values
     use lagrangia_statement_forms, only: without_number
     implicit none (type, external)
     private
-    public :: draw_values, is_frequency_name, put_frequencies, rate_of, unknown_rate, values_of
+    public :: draw_values, is_frequency_name, no_such_mode, put_frequencies, rate_of
+    public :: unknown_rate, values_of
 
 contains
 
@@ -37,9 +38,8 @@ contains
         type(samples_t), intent(in) :: samples               !! know the modes
         integer, intent(in) :: first               !! the first mode about the equilibrium
         real(dp), intent(inout) :: values(:, :)    !! (draws*states, symbols and constants)
-        character(:), allocatable :: name, stem
         real(dp) :: omega2
-        integer :: j, k, n, row, status
+        integer :: j, k, n, row
 
         do row = 1, size(values, 1)
             associate (modes => samples%omega2(1 + (row - 1)/states, first:first + &
@@ -52,18 +52,43 @@ contains
         end do
         n = size(samples%role)
         do j = 1, size(values, 2) - n
-            name = trim(samples%constants(j))
-            stem = without_number(name)
-            if (stem == name) cycle
-            if (stem /= "w" .and. stem /= samples%symbols%names(samples%frequency)) cycle
-            read (name(verify(name, "0123456789", back=.true.) + 1:), *, iostat=status) k
-            if (status /= 0 .or. samples%ndof == 1) k = 1
+            k = mode_number(trim(samples%constants(j)), samples)
             if (k < 1 .or. k > samples%ndof) cycle
             do row = 1, size(values, 1)
                 values(row, n + j) = sqrt(samples%omega2(1 + (row - 1)/states, first + k - 1))
             end do
         end do
     end subroutine put_frequencies
+
+    pure function mode_number(name, samples) result(k)
+        !! The mode of which `omega_2`, `w2` is the frequency: 2. Of one mode alone, 1 whatever
+        !! the number; 0 for another name.
+        character(*), intent(in) :: name             !! of a constant
+        type(samples_t), intent(in) :: samples       !! know the modes
+        integer :: k
+        integer :: status
+
+        k = 0
+        if (without_number(name) == name .or. .not. is_frequency_name(name, samples)) return
+        read (name(verify(name, "0123456789", back=.true.) + 1:), *, iostat=status) k
+        if (status /= 0) k = huge(k)
+        if (samples%ndof == 1) k = 1
+    end function mode_number
+
+    pure function no_such_mode(f, samples) result(name)
+        !! A frequency in f whose number is that of no mode; empty: there is none.
+        type(expression_t), intent(in) :: f                  !! of the time
+        type(samples_t), intent(in) :: samples               !! know the modes
+        character(:), allocatable :: name
+        integer :: k
+
+        name = ""
+        do k = size(samples%constants), 1, -1
+            if (.not. f%depends_on(size(samples%role) + k)) cycle
+            if (mode_number(trim(samples%constants(k)), samples) > samples%ndof) name = &
+                trim(samples%constants(k))
+        end do
+    end function no_such_mode
 
     pure function is_frequency_name(name, samples) result(yes)
         !! `omega_1`, `w2`: of a mode.

@@ -1,14 +1,16 @@
 module lagrangia_order_of_approximation
-    !! Approximations near an equilibrium at zero: \(\cos\theta \approx 1 - \theta^2/2\) holds to
+    !! Approximations near an equilibrium: \(\cos\theta \approx 1 - \theta^2/2\) holds to
     !! the order that is written, \(\cos\theta \approx 1 - \theta^2\) to the first only.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: expression_t, kind_difference, kind_negation, kind_number, &
                                     kind_power, kind_product, kind_quotient, kind_sum, &
-                                    kind_symbol, operator(-)
+                                    kind_symbol, operator(+), operator(-), symbol
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_parameter, &
                                       role_time, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_solved_accelerations, only: without_accelerations
+    use lagrangia_substitution, only: substituted
     implicit none (type, external)
     private
     public :: is_negligible, order_that_fails
@@ -17,27 +19,58 @@ module lagrangia_order_of_approximation
 
 contains
 
-    function order_that_fails(left, right, samples, shown) result(order)
+    function order_that_fails(left, right, samples, counted_from_it, shown) result(order)
         !! Of a polynomial in the coordinates on one side, its degree, if what the other side leaves
-        !! of it is of this order or of a lower one; else 0. Where the statement is no such
-        !! approximation, or the equilibrium is elsewhere, 0 too.
+        !! of it is of this order or of a lower one; else 0. Accelerations are those of the equation
+        !! of motion, where it has one only. Where the statement is no such approximation, 0 too.
         type(expression_t), intent(in) :: left, right  !! both sides, written out
         type(samples_t), intent(in) :: samples         !! roles of the symbols
+        logical, intent(in) :: counted_from_it         !! coordinates, from the equilibrium
         real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
         integer :: order
-        type(expression_t) :: residual
-        integer :: k
+        type(expression_t) :: exact_left, exact_right, residual
+        integer :: degrees(2), k
 
         order = 0
-        residual = left - right
+        exact_left = exact(left)
+        exact_right = exact(right)
+        residual = exact_left - exact_right
         do k = 1, size(samples%role)
-            if (residual%depends_on(k) .and. all(samples%role(k) /= &
-                                                 [role_coordinate, role_parameter])) return
+            if (any(samples%role(k) == [role_coordinate, role_parameter])) cycle
+            if (residual%depends_on(k) .and. all(samples%place /= k)) return
         end do
-        if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
-        k = max(degree(left, samples), degree(right, samples))
-        if (k <= 1 .or. min(degree(left, samples), degree(right, samples)) /= no_polynomial) return
-        if (leading_order(residual, samples, shown) < k + 0.5_dp) order = k
+        degrees = [degree(exact_left, samples), degree(exact_right, samples)]
+        k = maxval(degrees)
+        if (k <= 1) return
+        if (minval(degrees) /= no_polynomial .and. .not. (moves(left) .or. moves(right))) return
+        if (leading_order(residual, samples, counted_from_it, shown) < k + 0.5_dp) order = k
+    contains
+        pure function moves(side) result(yes)
+            !! It has accelerations.
+            type(expression_t), intent(in) :: side
+            logical :: yes
+            integer :: i
+
+            yes = any([(side%depends_on(samples%first_acceleration - 1 + i), i=1, samples%ndof)])
+        end function moves
+
+        function exact(side)
+            !! Without accelerations.
+            type(expression_t), intent(in) :: side
+            type(expression_t) :: exact, acceleration(1), place(samples%ndof)
+            integer :: i, j
+
+            exact = side
+            place = [(symbol(1 + i) + symbol(samples%place(i)), i=1, samples%ndof)]
+            do j = 1, samples%ndof
+                i = samples%first_acceleration - 1 + j
+                if (.not. exact%depends_on(i)) cycle
+                acceleration(1) = without_accelerations(symbol(i), samples)
+                if (counted_from_it) acceleration(1) = substituted( &
+                    acceleration(1), [(1 + i, i=1, samples%ndof)], place)
+                exact = substituted(exact, [samples%first_acceleration - 1 + j], acceleration)
+            end do
+        end function exact
     end function order_that_fails
 
     function is_negligible(residual, samples, shown) result(yes)
@@ -53,14 +86,15 @@ contains
         if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
         call summands(residual, nodes, signs)
         if (count(residual%nodes(nodes)%kind /= kind_number) /= 1) return
-        yes = leading_order(residual, samples, shown) > 1.5_dp
+        yes = leading_order(residual, samples, .false., shown) > 1.5_dp
     end function is_negligible
 
-    function leading_order(residual, samples, shown) result(order)
-        !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\);
-        !! infinite where it vanishes to rounding.
+    function leading_order(residual, samples, counted_from_it, shown) result(order)
+        !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\),
+        !! from the equilibrium; infinite where it vanishes to rounding.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
+        logical, intent(in) :: counted_from_it
         real(dp), intent(in) :: shown(:, :)
         real(dp) :: order
         real(dp), parameter :: amplitude = 0.02_dp, rounding = 1e3_dp*epsilon(1.0_dp)
@@ -83,12 +117,17 @@ contains
     contains
         subroutine scale(factor)
             real(dp), intent(in) :: factor
+            real(dp) :: places(size(values, 1), samples%ndof)
             integer :: j
 
+            places = values(:, samples%place)
+            if (counted_from_it) places = 0.0_dp
+            values(:, 2:1 + samples%ndof) = values(:, 2:1 + samples%ndof) - places
             do j = 1, size(samples%role)
                 if (samples%role(j) <= role_time .or. samples%role(j) > role_acceleration) cycle
                 values(:, j) = factor*values(:, j)
             end do
+            values(:, 2:1 + samples%ndof) = values(:, 2:1 + samples%ndof) + places
         end subroutine scale
     end function leading_order
 

@@ -101,6 +101,8 @@ module lagrangia_sample_names
         real(dp), allocatable :: other_equilibrium(:, :)
         !! the same about another one that the page knows, or at zero; NaN: none
         real(dp), allocatable, dimension(:, :, :) :: other_stiffness, other_inertia, other_turning
+        real(dp), allocatable :: stated_rest(:, :)
+        !! a third one, which a line has stated: values of all symbols there
         integer, allocatable :: place(:)                !! of `theta_eq`, where it is, (ndof)
         type(usual_t), allocatable :: usual(:)          !! names beside `symbols`
         character(name_length), allocatable :: constants(:)

@@ -62,13 +62,7 @@ contains
                                     (about_other .and. .not. about_first))
         if (.not. right_one) call compare(.false., .false.)
         if (right_one) then
-            k = order_that_fails(left, right, samples, shown)
-            if (k == 0) return
-            judgement%verdict = is_wrong
-            if (.not. explain) return
-            judgement%remark = "terms of order "//to_text(k)//" are written, to which it does "// &
-                               "not hold; it does to first order"
-            call put_example(left, right, samples, shown, judgement%example)
+            call judge_order(.false.)
             return
         end if
         if (judged) then
@@ -78,6 +72,7 @@ contains
         if (.not. right_one) call compare(.false., .true.)
         if (right_one) then
             judgement%remark = "if the coordinates are counted from the equilibrium"
+            call judge_order(.true.)
             return
         end if
         call compare(about_other, .false.)
@@ -107,6 +102,19 @@ contains
                               judgement%remark)
             if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
         end subroutine compare
+
+        subroutine judge_order(counted_from_it)
+            !! It is right to first order; does it hold to the one that it writes?
+            logical, intent(in) :: counted_from_it
+
+            k = order_that_fails(left, right, samples, counted_from_it, shown)
+            if (k == 0) return
+            judgement%verdict = is_wrong
+            if (.not. explain) return
+            judgement%remark = "terms of order "//to_text(k)//" are written, to which it does "// &
+                               "not hold; it does to first order"
+            call put_example(left, right, samples, shown, judgement%example)
+        end subroutine judge_order
 
         subroutine find_rest(other, yes)
             !! Does it hold at rest, at one equilibrium?

@@ -15,7 +15,7 @@ module lagrangia_stated_equilibria
     implicit none (type, external)
     private
     public :: another_equilibrium, is_equilibrium, keep_equilibrium, keep_origin
-    public :: put_inverted, put_root
+    public :: put_inverted, put_root, put_stated
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     character(*), parameter :: another_equilibrium = "another equilibrium than that at or near zero"
@@ -41,8 +41,8 @@ contains
     end function is_equilibrium
 
     subroutine keep_equilibrium(residual, samples)
-        !! The oscillations about an equilibrium that a line has stated, where no other one beside
-        !! the first is known.
+        !! The oscillations about an equilibrium that a line has stated: as the other one where none
+        !! is known beside the first, else for `put_stated`.
         type(expression_t), intent(in) :: residual  !! the place less its value
         type(samples_t), intent(inout) :: samples   !! get it as the other one
         real(dp), allocatable :: values(:, :)
@@ -54,10 +54,28 @@ contains
             values = samples%values
             values(:, samples%place(coordinate)) = 0.0_dp
             call find_rest(coordinate, -values_of(residual, values), samples, values, found)
+            if (found .and. other_is_known(samples)) samples%stated_rest = values
             if (found) call keep(values, .false., samples)
             return
         end do
     end subroutine keep_equilibrium
+
+    subroutine put_stated(samples, found)
+        !! The equilibrium that a line has stated beside the two that are known.
+        type(samples_t), intent(inout) :: samples   !! get it as the other one
+        logical, intent(out) :: found               !! there is one
+
+        found = allocated(samples%stated_rest)
+        if (found) call keep(samples%stated_rest, .true., samples)
+    end subroutine put_stated
+
+    pure function other_is_known(samples) result(yes)
+        !! Beside the first.
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)
+    end function other_is_known
 
     subroutine put_root(residual, samples, found)
         !! The equilibrium of one coordinate at which a statement about small oscillations is one
@@ -214,8 +232,7 @@ contains
         integer :: draw, i, j, n
 
         n = samples%ndof
-        if (any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp) .and. &
-            .not. instead) return
+        if (other_is_known(samples) .and. .not. instead) return
         at = values(::states, :)
         if (all(abs(at(:, 2:n + 1) - transpose(samples%equilibrium)) <= &
                 1e-12_dp*(1.0_dp + abs(at(:, 2:n + 1))))) return

@@ -18,7 +18,8 @@ module lagrangia_files
 
     integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
     integer, parameter :: e_input_output = 5  !! EIO
-    integer, parameter :: e_access = 13       !! EACCES
+    integer, parameter :: no_entry = 2        !! ENOENT
+    integer, parameter :: no_folder = 20      !! ENOTDIR
     integer, parameter :: e_bad_unit = 9      !! EBADF
     integer, parameter :: e_exists = 17       !! EEXIST
     integer, parameter :: e_invalid = 22      !! EINVAL
@@ -33,6 +34,7 @@ module lagrangia_files
         !! What the system says of a name.
         logical :: found = .false.    !! something has this name
         integer :: status = 0         !! otherwise the system's error number
+        logical :: barred = .false.   !! nobody knows: a closed folder, a loop of links
         logical :: folder = .false.   !! it is a folder
         logical :: regular = .false.  !! it is a regular file
         logical :: link = .false.     !! it is a symbolic link (only if links are not followed)
@@ -76,6 +78,7 @@ contains
         call ask(path//c_null_char, values, status)
         facts%found = status == 0
         facts%status = int(status)
+        facts%barred = all(facts%status /= [0, no_entry, no_folder])
         if (.not. facts%found) return
         facts%device = values(1)
         facts%inode = values(2)
@@ -214,8 +217,8 @@ contains
             problem = "the name of the file holds a NUL byte"
         else
             facts = look_at(path)
-            if (facts%status == e_access) then
-                problem = reason(e_access)
+            if (facts%barred) then
+                problem = reason(facts%status)
             else if (.not. facts%found) then
                 problem = "no such file"
             else if (facts%folder) then

@@ -152,7 +152,7 @@ contains
         is_path = looks_like_path(name)
         if (is_path) then
             facts = look_at(name)
-            if (facts%found) return
+            if (facts%found .or. facts%barred) return  ! the reader says what bars it
         end if
         call named_scenes(paths)
         allocate (names(size(paths)))
