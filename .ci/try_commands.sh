@@ -742,7 +742,7 @@ check "status 3: --json is still JSON" json 'd[0]["verdict"] == "failed" and all
 # status 5: files
 refuses 5 "no such file" run "$work/none.nml"
 refuses 5 "no such file; did you mean 'pendulum'?" run data/scene/pendulum.nml
-refuses 5 "/a.nml: no such file" run "$long/a.nml"
+refuses 5 "/a.nml: File name too long" run "$long/a.nml"
 run run pendulum --quiet --output "$work/$long"
 check "a folder's name that is too long" eval '[ $status -eq 5 ] && one_line && grep -q "/pendulum.dat.: .*: File name too long$" "$work/err"'
 echo data >"$work/file"

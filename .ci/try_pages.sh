@@ -112,13 +112,13 @@ graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a 
     done <.ci/graded_lines.txt
 }
 
-own() { # derivation and modes of each line of .ci/own_systems.txt, `q = ... ;; &lagrangian ;; parameters`
+own() { # derivation, modes and description of each line of .ci/own_systems.txt, `q = ... ;; &lagrangian ;; parameters`
     local line
     while IFS= read -r line; do
         printf "&scene system = 'own', dt = 0.01, duration = 1.0, %s /\n" "${line%% ;; *}" >"$work/own.nml"
         printf '&%s %s /\n' lagrangian "$(sed 's/^.* ;; \(.*\) ;; .*$/\1/' <<<"$line")" own "${line##* ;; }" >>"$work/own.nml"
         echo "$line"
-        for words in derive modes; do (cd "$work" && "$full" $words own.nml 2>&1) | sed -e "/^LAPACK: /d" -e "s/^/    /"; done
+        for words in derive modes describe "derive --latex"; do (cd "$work" && "$full" $words own.nml 2>&1) | sed -e "/^LAPACK: /d" -e "s/^/    /"; done
     done <.ci/own_systems.txt | plain
 }
 

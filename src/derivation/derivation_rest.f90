@@ -194,31 +194,34 @@ contains
     end function root_noise
 
     function paired(derivation, values, omega2, line) result(value)
-        !! That of LAPACK's which is as large among its kind as the line's among the formulas'.
+        !! That of LAPACK's which belongs to the line: the formulas' and LAPACK's which differ least
+        !! are a pair, then of those that are left.
         type(derivation_t), intent(in) :: derivation
         real(dp), intent(in) :: values(:), omega2(:)
         type(line_t), intent(in) :: line
         real(dp) :: value
-        real(dp) :: mine, noise, other
-        logical :: left(size(omega2))
-        integer :: k, rank
+        real(dp), allocatable :: distances(:, :)  !! of LAPACK's and each line
+        real(dp) :: formula, noise
+        integer, allocatable :: roots(:)          !! which root a line is
+        integer :: k, nearest(2)
 
-        rank = 1
-        call evaluate(line%right, values, mine, noise)
+        allocate (distances(size(omega2), 0), roots(0))
         do k = 1, derivation%count
             associate (a => derivation%lines(k))
-                if (a%kind /= line_omega2 .or. a%i == line%i) cycle
-                if (a%elsewhere .neqv. line%elsewhere) cycle
-                call evaluate(a%right, values, other, noise)
-                if (abs(other) < abs(mine) .or. &
-                    (abs(other) <= abs(mine) .and. a%i < line%i)) rank = rank + 1
+                if (a%kind /= line_omega2 .or. (a%elsewhere .neqv. line%elsewhere)) cycle
+                call evaluate(a%right, values, formula, noise)
+                distances = reshape([distances, abs(omega2 - formula)], &
+                                    [size(omega2), size(roots) + 1])
+                roots = [roots, a%i]
             end associate
         end do
-        left = .true.
-        do k = 1, rank - 1
-            left(minloc(abs(omega2), 1, left)) = .false.
+        do k = 1, size(roots)
+            nearest = minloc(distances)
+            value = omega2(nearest(1))
+            if (roots(nearest(2)) == line%i) return
+            distances(nearest(1), :) = huge(value)
+            distances(:, nearest(2)) = huge(value)
         end do
-        value = omega2(minloc(abs(omega2), 1, left))
     end function paired
 
     subroutine one_rate(system, modes, gamma, omega2, known)

@@ -220,17 +220,22 @@ contains
         end if
         qq%re = start
         l = system%lagrangian(hyperdual_t(), qq, vv)
-        if (ieee_is_finite(l%re)) return
-        call refuse_start(system, d, start, wanted, error)
+        if (.not. ieee_is_finite(l%re)) then
+            call refuse_start(system, d, "L", start, wanted, error)
+        else if (.not. all(ieee_is_finite(force_at_rest(system, start)))) then
+            call refuse_start(system, d, "a force", start, wanted, error)
+        end if
     end subroutine check_system
 
-    subroutine refuse_start(system, d, start, wanted, error)
-        !! L is no number there: say whether there is an equilibrium elsewhere.
+    subroutine refuse_start(system, d, what, start, wanted, error)
+        !! Something is no number there: say whether there is an equilibrium elsewhere.
         class(system_t), intent(in) :: system
         type(description_t), intent(in) :: d
+        character(*), intent(in) :: what  !! is no number
         real(dp), intent(in) :: start(:)
         logical, intent(in) :: wanted
         type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: beside = 1e-12_dp
         type(error_t), allocatable :: none
         real(dp) :: q(size(start)), f(size(start))
         character(:), allocatable :: names
@@ -244,16 +249,21 @@ contains
         f = force_at_rest(system, q)
         worst = maxloc(abs(f), 1)
         call settle(system, .false., q, none)
-        if (.not. allocated(none)) then
-            call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
-                      list_of(start)//"; there is an equilibrium at "//list_of(q), key="at")
+        if (.not. allocated(none) .and. all(abs(q - start) <= beside*(1.0_dp + abs(start)))) then
+            call fail(error, what//" of "//trim(d%name)//" is no finite number at "//names// &
+                      " = "//list_of(start)//", and the equilibrium is there; another form "// &
+                      "of L is needed, without a division by zero")
+        else if (.not. allocated(none)) then
+            call fail(error, what//" of "//trim(d%name)//" is no finite number at "//names// &
+                      " = "//list_of(start)//"; there is an equilibrium at "// &
+                      list_of(q), key="at")
         else if (wanted) then
-            call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
-                      list_of(start)//"; other values are needed")
+            call fail(error, what//" of "//trim(d%name)//" is no finite number at "//names// &
+                      " = "//list_of(start)//"; other values are needed")
         else
             call fail(error, trim(d%name)//" has no equilibrium that is found: at "// &
-                      names//" = "//list_of(start)//" L is no finite number, and at rest "// &
-                      "elsewhere a force on "//trim(d%coordinates(worst)%name)// &
+                      names//" = "//list_of(start)//" "//what//" is no finite number, and at "// &
+                      "rest elsewhere a force on "//trim(d%coordinates(worst)%name)// &
                       " remains; if you know one, give its "//names, key="at")
         end if
     end subroutine refuse_start
