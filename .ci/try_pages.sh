@@ -102,6 +102,21 @@ refused() { # the answer to each line of .ci/refused_words.txt, and its exit sta
     done <.ci/refused_words.txt
 }
 
+accepted() { # the answer to each line of .ci/accepted_words.txt, its exit status and the names of its files
+    local line words folder
+    while IFS= read -r line; do
+        eval "words=($line)"
+        echo "lagrangia $line"
+        rm -rf "$work/files"
+        folder=(--output "$work/files")
+        [[ $line =~ ^(run|sweep|compare)\  ]] || folder=()
+        timeout 60 "$program" "${words[@]}" ${folder[@]+"${folder[@]}"} </dev/null 2>&1 |
+            sed -E -e '/^LAPACK: /d' -e '/^build: /d' -e '/^method +of the steps/,/^ +a hyphen/d' -e 's/closed form, [0-9.e-]+ s$/closed form/'
+        echo "exit status: ${PIPESTATUS[0]}"
+        [ ! -d "$work/files" ] || (cd "$work/files" && printf 'written: %s\n' *)
+    done <.ci/accepted_words.txt
+}
+
 graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a sheet of its own
     local line lines
     while IFS= read -r line; do
@@ -183,6 +198,7 @@ for shell in bash zsh; do page plain completion $shell; done
 page plain describe scene
 page measured stress
 keep refused words < <(refused)
+keep accepted words < <(accepted | costless)
 keep graded lines < <(graded)
 keep own systems < <(own)
 page plain describe hanging_chain --set hanging_chain%n=1

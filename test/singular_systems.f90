@@ -5,7 +5,7 @@ module singular_systems
                          operator(*), operator(**), operator(+), operator(-)
     implicit none (type, external)
     private
-    public :: blind_t, fading_t, light_t, skew_t, steep_t
+    public :: blind_t, fading_t, light_rod_t, light_t, skew_t, steep_t
 
     type, abstract, extends(lagrangian_system_t) :: two_t
         !! Coordinates x and y, no parameters.
@@ -18,6 +18,12 @@ module singular_systems
     contains
         procedure :: lagrangian => light_lagrangian
     end type light_t
+
+    type, extends(light_t) :: light_rod_t
+        !! The same, and y follows x: \(\dot x/2 - \dot y/4 = 0\).
+    contains
+        procedure :: constraint_rows => rod_rows
+    end type light_rod_t
 
     type, extends(two_t) :: skew_t
         !! A mass of -1: \(L = \dot x\dot y - xy\).
@@ -62,6 +68,14 @@ contains
 
         l = 0.5_dp*v(1)**2 - 0.5_dp*q(1)**2 - 0.5_dp*q(2)**2
     end function light_lagrangian
+
+    pure subroutine rod_rows(self, t, q, rows, drift)
+        class(light_rod_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
+
+        rows(1, :)%re = [0.5_dp, -0.25_dp]
+    end subroutine rod_rows
 
     pure function skew_lagrangian(self, t, q, v) result(l)
         class(skew_t), intent(in) :: self

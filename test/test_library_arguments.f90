@@ -7,11 +7,13 @@ module test_library_arguments
                          new_system, normal_modes, normal_modes_t, observer_box_t, residual_ratio, &
                          system_t
     use lagrangia_audit, only: audit_system
+    use lagrangia_audit_structure, only: audit_mass
     use lagrangia_errors, only: status_library, status_numbers, status_usage
+    use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_ledger, only: ledger_t
     use lagrangia_run, only: run
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
-    use singular_systems, only: blind_t, fading_t, light_t, skew_t, steep_t
+    use singular_systems, only: blind_t, fading_t, light_rod_t, light_t, skew_t, steep_t
     implicit none (type, external)
     private
     public :: library_arguments_suite, refused
@@ -267,9 +269,12 @@ contains
     subroutine the_audit_names_the_mass_matrix()
         !! `check` says of each what is wrong with it, and at which state.
         type(light_t) :: light
+        type(light_rod_t) :: rod
         type(skew_t) :: skew
         type(blind_t) :: blind
         type(ledger_t) :: audit
+        type(error_t), allocatable :: error
+        real(dp) :: a(2), force(1)
 
         call audit_system(light, audit)
         call remarked(audit, "mass matrix is positive definite", &
@@ -278,6 +283,15 @@ contains
         call remarked(audit, "accelerations as from L", &
                       ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 "// &
                       "beside 1.0")
+        ! a constraint gives y the mass of x
+        call rod%configure([real(dp) ::], error)
+        rod%constraints = 1
+        audit = ledger_t()
+        call audit_mass(audit, rod, 0.0_dp, [0.25_dp, 0.5_dp], [0.5_dp, 1.0_dp])
+        call assertTrue(audit%rows(1)%holds, message="a light end of a rod has a mass matrix")
+        call accelerations_from_lagrangian(rod, 0.0_dp, [0.25_dp, 0.5_dp], [0.5_dp, 1.0_dp], a, &
+                                           force, error)
+        call assertEqual([-1.25_dp, -2.5_dp], a, 4*epsilon(a), message="and accelerations")
         audit = ledger_t()
         call audit_system(skew, audit)
         call remarked(audit, "mass matrix is positive definite", ": the mass matrix d2L/dv dv "// &
