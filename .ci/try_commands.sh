@@ -922,7 +922,7 @@ run sweep pendulum --over theta=0:3:3 --keep "max theta" --output "$work/sweep"
 check "an axis to 3 rad is not" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 refuses 2 "; angles are in radians: 180.0 degrees are 3.141592653589793" modes pendulum --at 180
 refuses 2 "an equilibrium of pendulum has 1 value, not 2; a decimal point, no comma, is needed in a number" modes pendulum --at 3,14
-refuses 2 "the axis theta: '180deg': angles are in radians; write 3.141592653589793" sweep pendulum --over theta=0:180deg:5 --keep period
+refuses 2 "the axis theta: '180deg': no degrees are read; an angle is in radians, 3.141592653589793" sweep pendulum --over theta=0:180deg:5 --keep period
 refuses 2 "a sweep cannot change 'length'; did you mean 'l'?" sweep pendulum --over length=0.5:2:5 --keep period
 refuses 2 "not 'Period'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep Period
 refuses 2 "not 'max(theta_dot)'; did you mean 'max theta_dot'?" sweep pendulum --over theta=0.1:3:5 --keep "max(theta_dot)"

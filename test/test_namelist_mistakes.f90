@@ -83,7 +83,8 @@ contains
         !! What means a number is told what to write; a repeat count is none of it.
         character(*), parameter :: minus = char(226)//char(136)//char(146)
         character(*), parameter :: degree = char(194)//char(176), pi = char(207)//char(128)
-        character(*), parameter :: radians = ": angles are in radians; write 0.7853981633974483"
+        character(*), parameter :: radians = ": no degrees are read; an angle is in "// &
+                                   "radians, 0.7853981633974483"
         type(namelist_t) :: tree
         type(error_t), allocatable :: error
         real(dp) :: x

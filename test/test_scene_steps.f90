@@ -128,8 +128,8 @@ contains
                      "event = 'theta = 1e999': "//behind//"'1e999': column 1: '1e999' is "// &
                      "too large for a double (at most 1.79769e308)")
         call refused(scene//"event = 'theta = 45 deg'", &
-                     "event = 'theta = 45 deg': "//behind//"'45 deg': angles are in "// &
-                     "radians; write 0.7853981633974483")
+                     "event = 'theta = 45 deg': "//behind//"'45 deg': no degrees are read; an "// &
+                     "angle is in radians, 0.7853981633974483")
         call refused(scene//"event = 'theta = 1/0 rising'", &
                      "event = 'theta = 1/0 rising': "//behind//"'1/0' is no number")
         call refused(scene//"event = 'theta = pi/2 risng'", "event = 'theta = pi/2 risng': "// &

@@ -211,6 +211,28 @@ contains
                     "g/l theta + g/(6 l) theta^3; sin(theta) ~ -(theta - pi) + (theta - pi)^3/6"// &
                     "; sin(theta) ~ -(theta - pi) + (theta - pi)^3/5", "3 terms of order 3 are "// &
                     "written; 7 terms of order 3 are written")
+        ! theta_ddot of a cart-pendulum is -g/(m1 l) ((m1 + m2) theta - ((m1 + m2)/6 + m2 (m1 +
+        ! m2)/m1) theta^3), at a turning point
+        call traced("cart_pendulum", "rrwr", "theta_ddot ~ -(m1 + m2) g/(m1 l) theta;"// &
+                    "theta_ddot ~ -(m1 + m2) g/(m1 l) (theta - (1/6 + m2/m1) theta^3);"// &
+                    "theta_ddot ~ -(m1 + m2) g/(m1 l) (theta - (1/5 + m2/m1) theta^3);"// &
+                    "m2 l theta_ddot + m2 x_ddot ~ -m2 g theta", &
+                    "3 terms of order 3 are written")
+        ! of energies
+        call traced("pendulum", "rwrfww", "V ~ m g l (theta^2/2 - theta^4/24);"// &
+                    "V ~ m g l (theta^2/2 - theta^4/20); L ~ m/2 l^2 theta_dot^2 - "// &
+                    "m g l (theta^2/2 - theta^4/24); L ~ m/2 l^2 theta_dot^2 - "// &
+                    "m g l (theta^2/2 - theta^4/20); T ~ m/2 l^2 theta_dot^2 (1 + theta^2);"// &
+                    "E ~ m l^2 theta_dot^2/2 + m g l theta^2/2 + m g l theta^3", &
+                    "2 terms of order 4 are written; 5 terms of order 4 are written; "// &
+                    "6 terms of order 3 are written")
+        call traced("pendulum", "rrw", "theta_eq = pi; V ~ -m g l (theta^2/2 - theta^4/24);"// &
+                    "V ~ -m g l (theta^2/2 - theta^4/20)", "3 terms of order 4 are written")
+        call traced("cart_pendulum", "rrw", "T ~ (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + "// &
+                    "m2 l x_dot theta_dot; T ~ (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + "// &
+                    "m2 l x_dot theta_dot (1 - theta^2/2); T ~ (m1 + m2)/2 x_dot^2 + "// &
+                    "m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot (1 - theta^2)", &
+                    "3 terms of order 4 are written")
         call traced("pendulum", "rwrr", "theta cos(theta) ~ theta - theta^3/2;"// &
                     "theta cos(theta) ~ theta - theta^3; cos(theta)^2 ~ 1 - sin(theta)^2;"// &
                     "theta/cos(theta) ~ theta + theta^3/2")

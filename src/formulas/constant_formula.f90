@@ -28,7 +28,7 @@ contains
 
         value = 0.0_dp
         call misread(trim(adjustl(text)), phrase, problem)
-        if (index(problem, "angles are in radians") == 1) then
+        if (index(problem, "no degrees are read") == 1) then
             call fail(error, quoted(phrase)//": "//problem)
             return
         end if

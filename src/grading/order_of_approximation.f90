@@ -4,13 +4,14 @@ module lagrangia_order_of_approximation
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: expression_t, kind_difference, kind_negation, kind_number, &
                                     kind_power, kind_product, kind_quotient, kind_sum, &
-                                    kind_symbol, operator(+), operator(-), symbol
+                                    kind_symbol, operator(+), operator(-), symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_parameter, &
-                                      role_time, samples_t
+                                      role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
-    use lagrangia_solved_accelerations, only: without_accelerations
+    use lagrangia_solved_accelerations, only: has_accelerations, without_accelerations
     use lagrangia_substitution, only: substituted
+    use lagrangia_written_out, only: energy_formulas, energy_places
     implicit none (type, external)
     private
     public :: is_negligible, order_that_fails
@@ -19,58 +20,79 @@ module lagrangia_order_of_approximation
 
 contains
 
-    function order_that_fails(left, right, samples, counted_from_it, shown) result(order)
+    function order_that_fails(left, right, samples, of_energies, counted_from_it, shown) &
+        result(order)
         !! Of a polynomial in the coordinates on one side, its degree, if what the other side leaves
-        !! of it is of this order or of a lower one; else 0. Accelerations are those of the equation
-        !! of motion, where it has one only. Where the statement is no such approximation, 0 too.
+        !! of it is of this order or of a lower one; else 0. Accelerations are those of the
+        !! equations of motion, of one coordinate or two, without the squares of velocities. L, T, V
+        !! and E are compared in coordinates and velocities, but for a constant. Where the statement
+        !! is no such approximation, 0 too.
         type(expression_t), intent(in) :: left, right  !! both sides, written out
         type(samples_t), intent(in) :: samples         !! roles of the symbols
+        logical, intent(in) :: of_energies             !! known to second order, else to the first
         logical, intent(in) :: counted_from_it         !! coordinates, from the equilibrium
         real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
         integer :: order
-        type(expression_t) :: exact_left, exact_right, residual
-        integer :: degrees(2), k
+        type(expression_t) :: residual
+        integer :: degrees(2), k, n
 
         order = 0
-        exact_left = exact(left)
-        exact_right = exact(right)
-        residual = exact_left - exact_right
+        n = samples%ndof
+        residual = exact(left) - exact(right)
         do k = 1, size(samples%role)
             if (any(samples%role(k) == [role_coordinate, role_parameter])) cycle
+            if (of_energies .and. samples%role(k) == role_velocity) cycle
             if (residual%depends_on(k) .and. all(samples%place /= k)) return
         end do
-        degrees = [degree(exact_left, samples), degree(exact_right, samples)]
+        degrees = [degree(left, samples, of_energies), degree(right, samples, of_energies)]
         k = maxval(degrees)
-        if (k <= 1) return
-        if (minval(degrees) /= no_polynomial .and. .not. (moves(left) .or. moves(right))) return
-        if (leading_order(residual, samples, counted_from_it, shown) < k + 0.5_dp) order = k
+        if (k <= merge(2, 1, of_energies)) return
+        if (minval(degrees) /= no_polynomial .and. .not. (of_energies .or. &
+            has_accelerations(left, samples) .or. has_accelerations(right, samples))) return
+        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) &
+            order = k
     contains
-        pure function moves(side) result(yes)
-            !! It has accelerations.
+        function exact(side)
+            !! Energies written out, and accelerations of a motion at a turning point.
             type(expression_t), intent(in) :: side
-            logical :: yes
+            type(expression_t) :: exact, accelerations(n), still(n)
+            type(expression_t), allocatable :: energies(:)
+            integer, allocatable :: places(:)
             integer :: i
 
-            yes = any([(side%depends_on(samples%first_acceleration - 1 + i), i=1, samples%ndof)])
-        end function moves
-
-        function exact(side)
-            !! Without accelerations.
-            type(expression_t), intent(in) :: side
-            type(expression_t) :: exact, acceleration(1), place(samples%ndof)
-            integer :: i, j
-
             exact = side
-            place = [(symbol(1 + i) + symbol(samples%place(i)), i=1, samples%ndof)]
-            do j = 1, samples%ndof
-                i = samples%first_acceleration - 1 + j
-                if (.not. exact%depends_on(i)) cycle
-                acceleration(1) = without_accelerations(symbol(i), samples)
-                if (counted_from_it) acceleration(1) = substituted( &
-                    acceleration(1), [(1 + i, i=1, samples%ndof)], place)
-                exact = substituted(exact, [samples%first_acceleration - 1 + j], acceleration)
-            end do
+            if (of_energies) then
+                call energy_formulas(samples, energies)
+                places = energy_places(samples)
+                energies = pack(energies, places > 0)
+                places = pack(places, places > 0)
+                do i = 1, size(places)
+                    energies(i) = about_place(energies(i))
+                end do
+                exact = substituted(side, places, energies)
+            else if (has_accelerations(side, samples)) then
+                still = whole(0)
+                do i = 1, n
+                    accelerations(i) = without_accelerations( &
+                                       symbol(samples%first_acceleration - 1 + i), samples)
+                    accelerations(i) = about_place(substituted(accelerations(i), &
+                                                               [(1 + n + i, i=1, n)], still))
+                end do
+                exact = substituted(side, [(samples%first_acceleration - 1 + i, i=1, n)], &
+                                    accelerations)
+            end if
         end function exact
+
+        function about_place(formula) result(f)
+            !! Of coordinates that are counted as those of the statement are.
+            type(expression_t), intent(in) :: formula
+            type(expression_t) :: f
+            integer :: i
+
+            f = formula
+            if (counted_from_it) f = substituted( &
+                f, [(1 + i, i=1, n)], [(symbol(1 + i) + symbol(samples%place(i)), i=1, n)])
+        end function about_place
     end function order_that_fails
 
     function is_negligible(residual, samples, shown) result(yes)
@@ -86,35 +108,55 @@ contains
         if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
         call summands(residual, nodes, signs)
         if (count(residual%nodes(nodes)%kind /= kind_number) /= 1) return
-        yes = leading_order(residual, samples, .false., shown) > 1.5_dp
+        yes = leading_order(residual, samples, .false., .false., shown) > 1.5_dp
     end function is_negligible
 
-    function leading_order(residual, samples, counted_from_it, shown) result(order)
+    function leading_order(residual, samples, but_constant, counted_from_it, shown) result(order)
         !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\),
         !! from the equilibrium; infinite where it vanishes to rounding.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
+        logical, intent(in) :: but_constant            !! less what it is at rest
         logical, intent(in) :: counted_from_it
         real(dp), intent(in) :: shown(:, :)
         real(dp) :: order
         real(dp), parameter :: amplitude = 0.02_dp, rounding = 1e3_dp*epsilon(1.0_dp)
+        !! the largest amplitude tried; the smallest at which more than rounding is left decides
         real(dp), allocatable :: values(:, :), results(:, :), sizes(:, :)
-        real(dp), dimension(size(shown, 1)) :: far, near
+        real(dp), dimension(size(shown, 1)) :: at_rest, far, near
         logical :: sound(size(shown, 1))
+        integer :: k
 
         order = huge(order)
-        allocate (values, source=shown)
+        at_rest = 0.0_dp
         allocate (results(size(shown, 1), residual%count), sizes(size(shown, 1), residual%count))
-        call scale(amplitude)
-        call evaluate_nodes(residual, values, results, sizes=sizes)
-        far = abs(results(:, residual%count))
-        call scale(0.5_dp)
-        call evaluate_nodes(residual, values, results, sizes=sizes)
-        near = abs(results(:, residual%count))
-        sound = ieee_is_finite(far) .and. ieee_is_finite(near)
-        if (.not. any(sound .and. near > rounding*sizes(:, residual%count))) return
-        order = log(sum(far, mask=sound)/sum(near, mask=sound))/log(2.0_dp)
+        if (but_constant) then
+            allocate (values, source=shown)
+            call scale(0.0_dp)
+            call evaluate_nodes(residual, values, results)
+            at_rest = results(:, residual%count)
+            deallocate (values)
+        end if
+        do k = 0, 5
+            allocate (values, source=shown)
+            call scale(amplitude/4.0_dp**k)
+            far = beside_rest()
+            call scale(0.5_dp)
+            near = beside_rest()
+            sound = ieee_is_finite(far) .and. near > rounding*sizes(:, residual%count)
+            if (.not. any(sound)) return
+            order = log(sum(far, mask=sound)/sum(near, mask=sound))/log(2.0_dp)
+            deallocate (values)
+        end do
     contains
+        function beside_rest() result(size_of)
+            !! That of the residual; `sizes` are those of its terms.
+            real(dp) :: size_of(size(shown, 1))
+
+            call evaluate_nodes(residual, values, results, sizes=sizes)
+            size_of = abs(results(:, residual%count) - at_rest)
+        end function beside_rest
+
         subroutine scale(factor)
             real(dp), intent(in) :: factor
             real(dp) :: places(size(values, 1), samples%ndof)
@@ -131,10 +173,11 @@ contains
         end subroutine scale
     end function leading_order
 
-    pure function degree(expression, samples) result(highest)
+    pure function degree(expression, samples, of_velocities) result(highest)
         !! In all coordinates, before anything cancels.
         type(expression_t), intent(in) :: expression
         type(samples_t), intent(in) :: samples
+        logical, intent(in) :: of_velocities  !! and in all velocities
         integer :: highest
         integer :: of(expression%count)
         integer :: i
@@ -145,7 +188,8 @@ contains
                 case (kind_number)
                     of(i) = 0
                 case (kind_symbol)
-                    of(i) = merge(1, 0, samples%role(node%which) == role_coordinate)
+                    of(i) = merge(1, 0, samples%role(node%which) == role_coordinate .or. &
+                                  (of_velocities .and. samples%role(node%which) == role_velocity))
                 case (kind_sum, kind_difference)
                     of(i) = max(of(node%left), of(node%right))
                     if (min(of(node%left), of(node%right)) < 0) of(i) = no_polynomial

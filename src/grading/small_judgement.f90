@@ -107,7 +107,7 @@ contains
             !! It is right to first order; does it hold to the one that it writes?
             logical, intent(in) :: counted_from_it
 
-            k = order_that_fails(left, right, samples, counted_from_it, shown)
+            k = order_that_fails(left, right, samples, .false., counted_from_it, shown)
             if (k == 0) return
             judgement%verdict = is_wrong
             if (.not. explain) return
@@ -168,12 +168,14 @@ contains
         if (agreement%yes .or. agreement%same_motion) then
             if (agreement%but_constant) judgement%remark = but_for_constant
             if (.not. agreement%yes) judgement%remark = "another L of the same motion"
+            if (agreement%yes) call judge_order(.false.)
             return
         end if
         do k = 0, 1
             call compare(k == 1, .true.)
             if (.not. agreement%yes .and. .not. agreement%same_motion) cycle
             judgement%remark = "if the coordinates are counted from the equilibrium"
+            if (agreement%yes) call judge_order(.true.)
             return
         end do
         about_other = speaks_of_place(judgement%residual, samples)
@@ -213,6 +215,18 @@ contains
         end associate
         call judgement%say_why()
     contains
+        subroutine judge_order(counted_from_it)
+            !! It is right to second order; does it hold to the one that it writes?
+            logical, intent(in) :: counted_from_it
+            integer :: order
+
+            order = order_that_fails(left, right, samples, .true., counted_from_it, shown)
+            if (order == 0) return
+            judgement%verdict = is_wrong
+            if (explain) judgement%remark = "terms of order "//to_text(order)//" are written, to "// &
+                "which it does not hold; it does to second order"
+        end subroutine judge_order
+
         subroutine compare(other, counted_from_it)
             !! Near one equilibrium.
             logical, intent(in) :: other, counted_from_it

@@ -185,7 +185,7 @@ contains
         odd = ""
         if (phrase /= text(:min(last, len(text)))) odd = unlike(text)
         if (degrees) then
-            problem = "angles are in radians"
+            problem = "no degrees are read; an angle is in radians"
         else if (odd /= "") then
             problem = odd
         else if (is_read(phrase)) then
@@ -193,7 +193,8 @@ contains
         else
             problem = "a number is needed, nothing is computed"
         end if
-        if (ieee_is_finite(value)) problem = problem//"; write "//to_text(value)
+        if (ieee_is_finite(value)) problem = problem//trim(merge(",      ", "; write", degrees))// &
+                                             " "//to_text(value)
     end subroutine misread
 
     pure function is_read(word) result(yes)
