@@ -49,8 +49,9 @@ contains
         if (k <= merge(2, 1, of_energies)) return
         if (minval(degrees) /= no_polynomial .and. .not. (of_energies .or. &
             has_accelerations(left, samples) .or. has_accelerations(right, samples))) return
-        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) &
+        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) then
             order = k
+        end if
     contains
         function exact(side)
             !! Energies written out, and accelerations of a motion at a turning point.

@@ -223,8 +223,8 @@ contains
             order = order_that_fails(left, right, samples, .true., counted_from_it, shown)
             if (order == 0) return
             judgement%verdict = is_wrong
-            if (explain) judgement%remark = "terms of order "//to_text(order)//" are written, to "// &
-                "which it does not hold; it does to second order"
+            if (explain) judgement%remark = "terms of order "//to_text(order)//" are written, "// &
+                "to which it does not hold; it does to second order"
         end subroutine judge_order
 
         subroutine compare(other, counted_from_it)
