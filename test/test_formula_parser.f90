@@ -389,6 +389,8 @@ contains
         call is_refused(repeat("-(", 300)//"x"//repeat(")", 300), "column 402: "//deep)
         call is("0 x"//repeat("+m", 4998), 4998.0_dp*m)
         call is("x"//repeat("/x*x", 2499), x)
+        call is("0 x"//repeat("+(m)", 300), 300.0_dp*m)  ! beside each other
+        call is("0 x"//repeat("+|-m|", 300), 300.0_dp*m)
         call is_refused("x"//repeat("+x", 5000), "the formula has more than 10000 characters; "// &
                         "give parts of it names, D = theta1 - theta2")
         call is("0 "//repeat("x ", 500)//repeat(" ", 20000), 0.0_dp)

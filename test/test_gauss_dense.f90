@@ -6,9 +6,11 @@ module test_gauss_dense
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, new_adaptive, new_integrator, nth_adaptive
+    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -26,6 +28,7 @@ contains
         call suite%addTest(TestMethod("states_at_the_ends", states_at_the_ends))
         call suite%addTest(TestMethod("ends_alone_cost_less", ends_alone_cost_less))
         call suite%addTest(TestMethod("catalogue_has_both", catalogue_has_both))
+        call suite%addTest(TestMethod("noise_of_accelerations", noise_of_accelerations))
     end function gauss_dense_suite
 
     subroutine ready(system, tolerance, method)
@@ -123,6 +126,29 @@ contains
         call method%advance(system, 0.5_dp, 2.5_dp, 0_i8, 1_i8, q, v)
         call assertEqual([q, v], [end_q, end_v], 0.0_dp, "steps of advance are the same")
     end subroutine states_at_the_ends
+
+    subroutine noise_of_accelerations()
+        !! What four ulp of x = 1 make of -x, root mean square: measured where the quadratures
+        !! disagree, here for an acceleration at the start that is none of the step's.
+        type(gauss_dense_t) :: dense
+        type(oscillator_t) :: system
+        type(error_t), allocatable :: error
+        integer(i8) :: evaluations
+        logical :: smooth
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        call dense%prepare(1)
+        call dense%keep(0.0_dp, [1.0_dp], [0.0_dp])
+        dense%h = 1e-20_dp
+        dense%a = 0.0_dp
+        dense%ends = 0.0_dp
+        dense%apart = 0.0_dp
+        evaluations = 7_i8
+        call dense%check_smooth(system, 1e-10_dp, [1e40_dp], [0.0_dp], evaluations, smooth)
+        call assertFalse(smooth, "the quadratures disagree")
+        call assertEqual(7_i8 + 32_i8, evaluations, message="sixteen points, twice")
+        call assertEqual(4*epsilon(1.0_dp), dense%noise(1), 1e-3_dp*epsilon(1.0_dp), "noise")
+    end subroutine noise_of_accelerations
 
     subroutine ends_alone_cost_less()
         !! The same steps to the last bit, of every adaptive method, for fewer evaluations.

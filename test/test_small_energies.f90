@@ -218,6 +218,14 @@ contains
                     "theta_ddot ~ -(m1 + m2) g/(m1 l) (theta - (1/5 + m2/m1) theta^3);"// &
                     "m2 l theta_ddot + m2 x_ddot ~ -m2 g theta", &
                     "3 terms of order 3 are written")
+        ! of momenta
+        call traced("pendulum", "rw", "p_theta ~ m l^2 theta_dot;"// &
+                    "p_theta ~ m l^2 theta_dot (1 + theta^2)", "2 terms of order 3 are written")
+        call traced("cart_pendulum", "rrww", "p_x ~ (m1 + m2) x_dot + m2 l theta_dot;"// &
+                    "p_x ~ (m1 + m2) x_dot + m2 l theta_dot (1 - theta^2/2);"// &
+                    "p_x ~ (m1 + m2) x_dot + m2 l theta_dot (1 - theta^2);"// &
+                    "p_theta ~ m2 l^2 theta_dot + m2 l x_dot (1 + theta)", &
+                    "3 terms of order 3 are written; 4 terms of order 2 are written")
         ! of energies
         call traced("pendulum", "rwrfww", "V ~ m g l (theta^2/2 - theta^4/24);"// &
                     "V ~ m g l (theta^2/2 - theta^4/20); L ~ m/2 l^2 theta_dot^2 - "// &

@@ -20,7 +20,7 @@ module lagrangia_order_of_approximation
 
 contains
 
-    function order_that_fails(left, right, samples, of_energies, counted_from_it, shown) &
+    function order_that_fails(left, right, samples, given, of_energies, counted_from_it, shown) &
         result(order)
         !! Of a polynomial in the coordinates on one side, its degree, if what the other side leaves
         !! of it is of this order or of a lower one; else 0. Accelerations are those of the
@@ -29,28 +29,30 @@ contains
         !! is no such approximation, 0 too.
         type(expression_t), intent(in) :: left, right  !! both sides, written out
         type(samples_t), intent(in) :: samples         !! roles of the symbols
+        logical, intent(in) :: given                   !! a momentum is on the left side
         logical, intent(in) :: of_energies             !! known to second order, else to the first
         logical, intent(in) :: counted_from_it         !! coordinates, from the equilibrium
         real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
         integer :: order
         type(expression_t) :: residual
         integer :: degrees(2), k, n
+        logical :: at_rest                             !! no velocities are compared
 
         order = 0
         n = samples%ndof
+        at_rest = has_accelerations(left, samples) .or. has_accelerations(right, samples)
         residual = exact(left) - exact(right)
         do k = 1, size(samples%role)
             if (any(samples%role(k) == [role_coordinate, role_parameter])) cycle
-            if (of_energies .and. samples%role(k) == role_velocity) cycle
+            if (.not. at_rest .and. samples%role(k) == role_velocity) cycle
             if (residual%depends_on(k) .and. all(samples%place /= k)) return
         end do
-        degrees = [degree(left, samples, of_energies), degree(right, samples, of_energies)]
+        degrees = [degree(left, samples, .not. at_rest), degree(right, samples, .not. at_rest)]
         k = maxval(degrees)
         if (k <= merge(2, 1, of_energies)) return
-        if (minval(degrees) /= no_polynomial .and. .not. (of_energies .or. &
-            has_accelerations(left, samples) .or. has_accelerations(right, samples))) return
-        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) then
-            order = k
+        if (minval(degrees) == no_polynomial .or. given .or. of_energies .or. at_rest) then
+            if (leading_order(residual, samples, of_energies, counted_from_it, shown) < &
+                k + 0.5_dp) order = k
         end if
     contains
         function exact(side)

@@ -107,7 +107,7 @@ contains
             !! It is right to first order; does it hold to the one that it writes?
             logical, intent(in) :: counted_from_it
 
-            k = order_that_fails(left, right, samples, .false., counted_from_it, shown)
+            k = order_that_fails(left, right, samples, given, .false., counted_from_it, shown)
             if (k == 0) return
             judgement%verdict = is_wrong
             if (.not. explain) return
@@ -220,7 +220,7 @@ contains
             logical, intent(in) :: counted_from_it
             integer :: order
 
-            order = order_that_fails(left, right, samples, .true., counted_from_it, shown)
+            order = order_that_fails(left, right, samples, .false., .true., counted_from_it, shown)
             if (order == 0) return
             judgement%verdict = is_wrong
             if (explain) judgement%remark = "terms of order "//to_text(order)//" are written, "// &
