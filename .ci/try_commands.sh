@@ -1006,6 +1006,9 @@ done
 fake 'exit 3' png
 check "gnuplot: its status is told" eval '[ $status -eq 5 ] && one_line && grep -q "gnuplot ended with status 3 on " "$work/err" && [ ! -e "$work/drawn/pendulum.png" ] && leftovers'
 
+run stress slow_rotation
+check "stress: what holds stands under each other" awk '/ holds/ { at = index($0, " holds"); if (first && at != first) exit 1; first = at } END { exit !first }' "$work/out"
+
 # what is said of a motion is true of it, however its formulas are written
 mkdir "$work/said"
 said() { # said FORMULAS: a mass in a plane, with V = k/2 x^2, and what is typed besides

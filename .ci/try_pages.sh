@@ -117,16 +117,6 @@ accepted() { # the answer to each line of .ci/accepted_words.txt, its exit statu
     done <.ci/accepted_words.txt
 }
 
-graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a sheet of its own
-    local line lines
-    while IFS= read -r line; do
-        lines=${line#*: }
-        printf 'system: %s\n%s\n' "${line%%: *}" "${lines// ;; /$'\n'}" >"$work/sheet.txt"
-        echo "$line"
-        (cd "$work" && "$full" grade sheet.txt 2>&1) | sed -e 's/^/    /' -e '/: [0-9]* statements\? about /d'
-    done <.ci/graded_lines.txt
-}
-
 own() { # derivation, modes and description of each line of .ci/own_systems.txt, `q = ... ;; &lagrangian ;; parameters`
     local line
     while IFS= read -r line; do
@@ -199,7 +189,7 @@ page plain describe scene
 page measured stress
 keep refused words < <(refused)
 keep accepted words < <(accepted | costless)
-keep graded lines < <(graded)
+keep graded lines < <(python3 .ci/graded_sheets.py "$program")
 keep own systems < <(own)
 page plain describe hanging_chain --set hanging_chain%n=1
 page plain describe spring_pendulum

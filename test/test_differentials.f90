@@ -131,6 +131,8 @@ contains
                     "d theta/dt = p_theta/(m l)", is_wrong)
         call judged("double_pendulum", "V' = 0", is_unreadable, &
                     "column 2: a prime does not say by what; write dV/dtheta1")
+        call judged("double_pendulum", "m1 = -V'", is_unreadable, &
+                    "column 8: a prime does not say by what; write dV/dtheta1")
         call judged("pendulum", "theta' = theta_dot", is_right)
         call judged("oscillator", "x' = x + 1", is_unreadable, &
                     "column 2: a prime is no derivative; write x_dot")

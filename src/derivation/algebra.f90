@@ -27,7 +27,7 @@ module lagrangia_algebra
     type :: atom_t
         !! What an atom's number stands for.
         integer :: kind = atom_symbol
-        integer :: which = 0              !! of the symbols, or of the functions
+        integer :: which = 0              !! of the functions
         type(number_t) :: exponent        !! of a root
         type(polynomial_t) :: argument
     end type atom_t
@@ -59,15 +59,11 @@ contains
         !! Make an atom of each name.
         class(algebra_t), intent(inout) :: self  !! new
         integer, intent(in) :: names             !! how many symbols there are
-        integer :: i
 
         allocate (self%atoms(most_atoms))
         self%names = min(names, most_atoms)
         self%full = names > most_atoms
         self%count = self%names
-        do i = 1, self%names
-            self%atoms(i)%which = i
-        end do
     end subroutine begin
 
     pure subroutine atom_number(self, kind, which, exponent, argument, atom)

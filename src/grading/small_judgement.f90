@@ -175,6 +175,8 @@ contains
             call compare(k == 1, .true.)
             if (.not. agreement%yes .and. .not. agreement%same_motion) cycle
             judgement%remark = "if the coordinates are counted from the equilibrium"
+            if (.not. agreement%yes) judgement%remark = "another L of the same motion, "// &
+                judgement%remark
             if (agreement%yes) call judge_order(.true.)
             return
         end do
