@@ -112,7 +112,7 @@ accepted() { # the answer to each line of .ci/accepted_words.txt, its exit statu
         [[ $line =~ ^(run|sweep|compare)\  ]] || folder=()
         timeout 60 "$program" "${words[@]}" ${folder[@]+"${folder[@]}"} </dev/null 2>&1 |
             sed -E -e '/^LAPACK: /d' -e '/^build: /d' -e '/^method +of the steps/,/^ +a hyphen/d' -e 's/closed form, [0-9.e-]+ s$/closed form/'
-        echo "exit status: ${PIPESTATUS[0]}"
+        echo "exit status=${PIPESTATUS[0]}"
         [ ! -d "$work/files" ] || (cd "$work/files" && printf 'written: %s\n' *)
     done <.ci/accepted_words.txt
 }
