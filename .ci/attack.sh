@@ -115,9 +115,9 @@ if [ $status -eq 0 ]; then
         chmod "${mode%:*}" "$work/closed/pendulum.nml"
         chmod "${mode#*:}" "$work/closed"
         user run closed/pendulum.nml --output "$work/none"
-        check "a scene that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: Permission denied" "$work/err" && [ ! -e "$work/none" ]'
+        check "a scene that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: \(Permission denied\|the file cannot be opened; may it be read?\)" "$work/err" && [ ! -e "$work/none" ]'
         user grade closed/pendulum.nml
-        check "a sheet that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: Permission denied" "$work/err"'
+        check "a sheet that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: \(Permission denied\|the file cannot be opened; may it be read?\)" "$work/err"'
     done
     chmod 700 "$work/closed"
 else

@@ -67,12 +67,11 @@ contains
             if (of_energies) then
                 call energy_formulas(samples, energies)
                 places = energy_places(samples)
-                energies = pack(energies, places > 0)
-                places = pack(places, places > 0)
                 do i = 1, size(places)
+                    if (places(i) == 0) cycle
                     energies(i) = about_place(energies(i))
+                    exact = substituted(exact, places(i:i), energies(i:i))
                 end do
-                exact = substituted(side, places, energies)
             else if (has_accelerations(side, samples)) then
                 still = whole(0)
                 do i = 1, n
@@ -89,12 +88,15 @@ contains
         function about_place(formula) result(f)
             !! Of coordinates that are counted as those of the statement are.
             type(expression_t), intent(in) :: formula
-            type(expression_t) :: f
+            type(expression_t) :: f, counted(n)
             integer :: i
 
             f = formula
-            if (counted_from_it) f = substituted( &
-                f, [(1 + i, i=1, n)], [(symbol(1 + i) + symbol(samples%place(i)), i=1, n)])
+            if (.not. counted_from_it) return
+            do i = 1, n
+                counted(i) = symbol(1 + i) + symbol(samples%place(i))
+            end do
+            f = substituted(f, [(1 + i, i=1, n)], counted)
         end function about_place
     end function order_that_fails
 

@@ -47,7 +47,7 @@ contains
         !! \(M\ddot q + r = 0\) by Cramer's rule.
         type(samples_t), intent(in) :: samples      !! of two coordinates
         type(expression_t), intent(inout) :: e      !! as it was where M is not that of L alone
-        type(expression_t) :: equation, m(2, 2), determinant, rest(2), zeros(2)
+        type(expression_t) :: equation, m(2, 2), determinant, rest(2), solved(2), zeros(2)
         logical :: judged, yes
         integer :: i, j, places(2)
 
@@ -65,8 +65,9 @@ contains
             end do
         end do
         determinant = m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1)
-        e = substituted(e, places, [(m(1, 2)*rest(2) - m(2, 2)*rest(1))/determinant, &
-                                    (m(2, 1)*rest(1) - m(1, 1)*rest(2))/determinant])
+        solved(1) = (m(1, 2)*rest(2) - m(2, 2)*rest(1))/determinant
+        solved(2) = (m(2, 1)*rest(1) - m(1, 1)*rest(2))/determinant
+        e = substituted(e, places, solved)
     end subroutine write_out_two
 
     pure function has_accelerations(e, samples) result(yes)
