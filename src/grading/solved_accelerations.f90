@@ -72,8 +72,8 @@ contains
 
     pure function has_accelerations(e, samples) result(yes)
         !! Is one of them left?
-        type(expression_t), intent(in) :: e
-        type(samples_t), intent(in) :: samples
+        type(expression_t), intent(in) :: e        !! of the samples' symbols
+        type(samples_t), intent(in) :: samples     !! know which these are
         logical :: yes
         integer :: k
 
