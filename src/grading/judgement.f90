@@ -82,9 +82,11 @@ contains
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
-        call read_signs(partial%text, plain, nearly)
-        if (judgement%verdict == is_wrong .and. (statement%small .or. any(nearly))) call &
-            try_elsewhere(partial, samples, library, judgement)
+        if (judgement%verdict == is_wrong) then
+            call read_signs(partial%text, plain, nearly)
+            if (statement%small .or. any(nearly)) call try_elsewhere(partial, samples, library, &
+                                                                     judgement)
+        end if
         if (judgement%verdict /= is_wrong .or. .not. explain) return
         call say_constants(samples, judgement)
         ! dL/dt may be meant at rest, too
@@ -126,8 +128,8 @@ contains
 
     subroutine try_elsewhere(statement, samples, library, judgement)
         !! A line before may have said where, and `small: theta_ddot = g/l (theta - pi)` says it;
-        !! of one without a place that would be
-        !! right of the upper equilibrium it is said how to say so.
+        !! of one without a place that would be right of the upper equilibrium it is said how to
+        !! say so.
         type(statement_t), intent(in) :: statement      !! wrong
         type(samples_t), intent(in) :: samples          !! know other equilibria
         type(library_t), intent(in) :: library(:)       !! right terms
@@ -141,8 +143,10 @@ contains
         call put_stated(there, found)
         if (found) then
             call judge_line(statement, there, library, .false., attempt)
-            if (attempt%verdict == is_right) judgement = attempt
-            if (attempt%verdict == is_right) return
+            if (attempt%verdict == is_right) then
+                judgement = attempt
+                return
+            end if
         end if
         there = samples
         call put_root(judgement%residual, there, found)

@@ -113,9 +113,7 @@ contains
         name = ""
         do k = 1, size(samples%constants)
             if (.not. f%depends_on(size(samples%role) + k)) cycle
-            if (without_number(trim(samples%constants(k))) == "w" .or. &
-                without_number(trim(samples%constants(k))) == &
-                samples%symbols%names(samples%frequency)) cycle
+            if (is_frequency_name(samples%constants(k), samples)) cycle
             if (.not. any(f%nodes(:f%count)%kind == kind_function)) then
                 rate = rate_of(f, 2)
                 if (rate%count == 0) cycle

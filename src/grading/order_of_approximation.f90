@@ -41,18 +41,20 @@ contains
         order = 0
         n = samples%ndof
         at_rest = has_accelerations(left, samples) .or. has_accelerations(right, samples)
+        degrees = [degree(left, samples, .not. at_rest), degree(right, samples, .not. at_rest)]
+        if (maxval(degrees) <= merge(2, 1, of_energies)) return
+        if (.not. (given .or. of_energies .or. at_rest .or. minval(degrees) == no_polynomial)) then
+            return
+        end if
         residual = exact(left) - exact(right)
         do k = 1, size(samples%role)
             if (any(samples%role(k) == [role_coordinate, role_parameter])) cycle
             if (.not. at_rest .and. samples%role(k) == role_velocity) cycle
             if (residual%depends_on(k) .and. all(samples%place /= k)) return
         end do
-        degrees = [degree(left, samples, .not. at_rest), degree(right, samples, .not. at_rest)]
         k = maxval(degrees)
-        if (k <= merge(2, 1, of_energies)) return
-        if (minval(degrees) == no_polynomial .or. given .or. of_energies .or. at_rest) then
-            if (leading_order(residual, samples, of_energies, counted_from_it, shown) < &
-                k + 0.5_dp) order = k
+        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) then
+            order = k
         end if
     contains
         function exact(side)

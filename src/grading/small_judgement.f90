@@ -11,6 +11,7 @@ module lagrangia_small_judgement
     use lagrangia_small_driven_motion, only: is_driven, judge_driven
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
+    use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -252,13 +253,12 @@ contains
         type(library_t), intent(in) :: library(:)
         type(samples_t), intent(in) :: samples
         type(library_t), allocatable :: terms(:)
-        integer :: i, j, n
+        integer :: i, n
 
         n = 0
         allocate (terms(size(library)))
         do i = 1, size(library)
-            if (any([(library(i)%term%depends_on(samples%first_acceleration - 1 + j), &
-                      j=1, samples%ndof)])) cycle
+            if (has_accelerations(library(i)%term, samples)) cycle
             n = n + 1
             terms(n)%term = library(i)%term
         end do
