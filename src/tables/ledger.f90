@@ -84,6 +84,7 @@ contains
         type(claim_t), allocatable :: longer(:)
         integer :: n
 
+        if (.not. allocated(self%rows)) allocate (self%rows(0))
         n = size(self%rows) + 1
         allocate (longer(n))
         longer(:n - 1) = self%rows
@@ -214,10 +215,11 @@ contains
         character(*), intent(in) :: claim  !! its name
         integer :: row
 
+        row = 0
+        if (.not. allocated(self%rows)) return
         do row = size(self%rows), 1, -1
             if (self%rows(row)%name == claim .and. self%rows(row)%group == self%group) return
         end do
-        row = 0
     end function row_of
 
     pure function broken(self) result(number)
@@ -225,6 +227,7 @@ contains
         class(ledger_t), intent(in) :: self
         integer :: number
 
-        number = count(.not. self%rows%as_it_must())
+        number = 0
+        if (allocated(self%rows)) number = count(.not. self%rows%as_it_must())
     end function broken
 end module lagrangia_ledger
