@@ -121,6 +121,7 @@ module suites
     use test_noether, only: noether_suite
     use test_normal_modes, only: normal_modes_suite
     use test_npy, only: npy_suite
+    use test_number_class, only: number_class_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
     use test_other_rounding, only: other_rounding_suite
@@ -346,6 +347,7 @@ contains
         call suite%addTest(namelist_values_suite())
         call suite%addTest(normal_modes_suite())
         call suite%addTest(npy_suite())
+        call suite%addTest(number_class_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
         call suite%addTest(outcome_suite())

@@ -2,7 +2,7 @@
 """Change one random place of the sources at a time, and see whether anything notices.
 
     .ci/mutants/mutate.py [--count 100] [--seed 1] [--only src/runs,src/pages] [--skip TEXT]
-                          [--output mutants.jsonl] [--quick] [--again mutants.jsonl]
+                          [--output mutants.jsonl] [--quick] [--gate] [--again mutants.jsonl]
 
 Run it, by nice, in a checkout of its own whose tests pass. Each mutant is one change of one statement in
 src: an operator, a number, an intrinsic function, a condition, a deleted statement or, within a
@@ -16,8 +16,9 @@ that use the module, then all from which it can be reached, the quickest first. 
 meets what users run: the main job, .ci/try_pages.sh and .ci/try_commands.sh, and .ci/try_shells.sh
 or .ci/try_terminals.py where the change is in what completion and manual page are made of, or lines on a terminal. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
-which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
-gate: most mutants take seconds, a survivor as long as all that looks at it.
+which a person decides. `--again` tries the survivors of an earlier list once more, and `--gate` shows them
+to all else that .ci/run does with a program, too: ten minutes for each that survives. Not part of the gate:
+most mutants take seconds, a survivor as long as all that looks at it.
 
 Before the first mutant all this is tried without any: what fails there would "kill" every mutant, so
 the first failure is printed and nothing is begun. `--quick` leaves out what users run, there and later.
@@ -52,6 +53,8 @@ SWAPS = {
 OF_SHELLS = tuple(f"src/commands/{name}.f90" for name in ("completion", "manual", "registry", "vocabulary",
                                                            "command_pages"))  # what try_shells.sh looks at
 OF_TERMINALS = ("src/posix/console.f90",)  # what try_terminals.py looks at
+OF_GATE = ("try_help.py", "try_latex.py", "try_progress.py", "attack.sh", "attack_names.sh", "attack_parts.py",
+           "attack_signals.sh", "attack_environment.sh", "attack_changes.py")  # what --gate adds
 HEAVY = ("audit", "principles", "scenes", "runs", "commands", "bench", "stress")  # drawn twice as often
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?_dp|\d+(?!\.\d)(?:_i8)?)(?![\w.])")
 DECLARATION = re.compile(r"^\s*(use|import|implicit|public|private|end|module|submodule|contains|type|class|real|integer|"
@@ -360,17 +363,18 @@ def noticed_by_tests(unit, build, source, times):
     return ""
 
 
-def noticed_by_users(program, root, work, limits, source):
+def noticed_by_users(program, root, work, limits, source, gate):
     """The first of the things that users run which does not end well, and all that it printed; with
     a Tab in shells or on terminals if `source` has to do with them, or is None. "" and "" if all do."""
-    scripts = ["try_pages.sh"]
+    scripts, last = ["try_pages.sh"], ["try_commands.sh", *(OF_GATE if gate else ())]
     if source is None or source in OF_SHELLS:
         scripts.append("try_shells.sh")
     if source is None or source in OF_TERMINALS:
         scripts.append("try_terminals.py")
     for command in ([program, "--output", os.path.join(work, "data")],
                     *(["python3" if script.endswith(".py") else "bash", ".ci/" + script, program]
-                      for script in [*scripts, "try_commands.sh"])):
+                      for script in [*scripts, *last]),
+                    *([[program, "stress", "--quiet"]] if gate else [])):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
@@ -431,6 +435,7 @@ def main():
     words.add_argument("--skip", default="")
     words.add_argument("--output", default="mutants.jsonl")
     words.add_argument("--quick", action="store_true", help="unit tests only, not what users run")
+    words.add_argument("--gate", action="store_true", help="all that the gate does with a program, too")
     words.add_argument("--again", default="", metavar="LIST", help="the survivors of an earlier output")
     words = words.parse_args()
     root = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
@@ -442,7 +447,7 @@ def main():
     times = suite_times(build.link("unit", {}), build)
     if not words.quick:
         used = processor_time()
-        refuse(*noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, None))
+        refuse(*noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, None, words.gate))
         limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
     none = 0  # drawn, and no mutant
@@ -460,7 +465,7 @@ def main():
             by = noticed_by_tests(unit, build, source, times)
             fate = "died" if by else "survived"
             if not by and not words.quick:
-                by, _ = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source)
+                by, _ = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source, words.gate)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),

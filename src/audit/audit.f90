@@ -20,6 +20,7 @@ module lagrangia_audit
     use lagrangia_lagrange, only: euler_lagrange_t
     use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_number_class, only: is_zero
     use lagrangia_observer, only: observer_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
@@ -119,7 +120,7 @@ contains
 
         call system%describe(d)
         allocate (read_back, source=default_values(d))
-        same = all(abs(read_back - values) <= 0.0_dp .or. ieee_is_nan(values))
+        same = all(is_zero(read_back - values) .or. ieee_is_nan(values))
         call audit%try("parameters are what was given", merge(0.0_dp, 1.0_dp, same), &
                        epsilon(1.0_dp), 1.0_dp)
     end subroutine audit_parameters

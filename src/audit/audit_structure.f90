@@ -9,6 +9,7 @@ module lagrangia_audit_structure
     use lagrangia_lapack, only: smallest_pivot
     use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -58,9 +59,9 @@ contains
         call system%generalised_forces(hyperdual_t(re=other_t), qq, vv, then)
         call system%constraint_rows(hyperdual_t(re=t), qq, rows, b)
         call system%constraint_rows(hyperdual_t(re=other_t), qq, new_rows, new_b)
-        moving = any(abs(new_rows%re - rows%re) > 0.0_dp) .or. any(abs(new_b%re) > 0.0_dp)
+        moving = any(is_nonzero(new_rows%re - rows%re)) .or. any(is_nonzero(new_b%re))
         if (.not. system%nonconservative) then
-            if (any(abs(now%re) > 0.0_dp)) call verdict(.false., "nonconservative", &
+            if (any(is_nonzero(now%re))) call verdict(.false., "nonconservative", &
                 "nonconservative is false, yet there are generalised forces")
         else
             call verdict(acts_somewhere(system, t, q, v), "nonconservative", &
@@ -69,14 +70,14 @@ contains
         if (.not. system%time_dependent) then
             call verdict(by_time <= 0.0_dp, "time_dependent", &
                          "time_dependent is false, yet the accelerations depend on the time")
-            call verdict(abs(later%l - terms%l) <= 0.0_dp, "time_dependent", &
+            call verdict(is_zero(later%l - terms%l), "time_dependent", &
                          "time_dependent is false, yet L depends on the time")
         else if (generic) then
-            call verdict(abs(later%l - terms%l) > 0.0_dp .or. any(abs(then%re - now%re) > 0.0_dp) &
+            call verdict(is_nonzero(later%l - terms%l) .or. any(is_nonzero(then%re - now%re)) &
                          .or. by_time > 0.0_dp .or. moving, &
                          "time_dependent", "time_dependent is true, yet L has no time in it")
         end if
-        if (.not. system%constraints_work .and. any(abs(b%re) > 0.0_dp)) call verdict(.false., &
+        if (.not. system%constraints_work .and. any(is_nonzero(b%re))) call verdict(.false., &
             "constraints_work", "constraints_work is false, yet a constraint A v + b = 0 has a b")
     contains
         subroutine verdict(good, flag, remark)
@@ -109,15 +110,15 @@ contains
             qq%re = q
             vv%re = v*0.5_dp**k
             call system%generalised_forces(hyperdual_t(re=t), qq, vv, force)
-            yes = any(abs(force%re) > 0.0_dp)
+            yes = any(is_nonzero(force%re))
             if (yes) return
             qq%re = q*0.5_dp**k
             call system%generalised_forces(hyperdual_t(re=t), qq, vv, force)
-            yes = any(abs(force%re) > 0.0_dp)
+            yes = any(is_nonzero(force%re))
             if (yes) return
             qq%re = q
             call system%generalised_forces(hyperdual_t(re=later*k), qq, vv, force)
-            yes = any(abs(force%re) > 0.0_dp)
+            yes = any(is_nonzero(force%re))
             if (yes) return
         end do
     end function acts_somewhere
@@ -168,9 +169,9 @@ contains
         call audit%try(claim, abs(terms%dl_dq(system%cyclic)) &
                        /(maxval(abs(terms%dl_dq)) + tiny(no)), epsilon(no), 1.0_dp)
         call system%describe(d)
-        if (abs(terms%dl_dq(system%cyclic)) > 0.0_dp) then
+        if (is_nonzero(terms%dl_dq(system%cyclic))) then
             call audit%say(claim, "L depends on "//d%coordinates(system%cyclic)%name)
-        else if (abs(terms%beside(system%cyclic)) > 0.0_dp) then
+        else if (is_nonzero(terms%beside(system%cyclic))) then
             call audit%try(claim, no, epsilon(no), 1.0_dp)
             call audit%say(claim, "a generalised force acts on "// &
                            d%coordinates(system%cyclic)%name)
@@ -199,7 +200,7 @@ contains
         do k = 1, system%constraints
             weight = 0.0_dp
             do i = 1, size(q)
-                if (abs(rows(k, i)%re) > 0.0_dp) then
+                if (is_nonzero(rows(k, i)%re)) then
                     weight = max(weight, abs(terms%mass(i, i))/rows(k, i)%re**2)
                 end if
             end do

@@ -10,6 +10,7 @@ module lagrangia_diagnosis
                                         term_length, term_names
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use lagrangia_term_fit, only: best_term
@@ -105,11 +106,11 @@ contains
                     in_equations(s, :, size(by_equation, 2) + j) = -mass(:, j)*a(j)
                 end do
             end associate
-            where (abs(wrong(s, :)) > 0.0_dp)
+            where (is_nonzero(wrong(s, :)))
                 of_acceleration = max(of_acceleration, abs(wrong(s, :)) &
                                       /(motion%size + abs(wrong(s, :))))
             end where
-            where (abs(residual(s, :)) > 0.0_dp)
+            where (is_nonzero(residual(s, :)))
                 of_equation = max(of_equation, abs(residual(s, :))/size_of_row)
             end where
         end do

@@ -3,7 +3,6 @@ module lagrangia_contestants
     !! listed in the catalogue tomorrow is measured tomorrow.
     !!
     !! Our own methods take part by a fixed step, by a tolerance, and by a closed form.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_bench_problems, only: bench_problem_t
     use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_nothing, set_by_step, &
                                     set_by_tolerance, source_closed_form
@@ -14,6 +13,7 @@ module lagrangia_contestants
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_adaptive, nth_integrator
+    use lagrangia_number_class, only: all_finite
     use lagrangia_reduced_motion, only: leave_cyclic, reduced_motion_t
     implicit none (type, external)
     private
@@ -177,7 +177,7 @@ contains
         call self%method%advance(problem%system, 0.0_dp, problem%duration/self%steps, 0_i8, &
                                  self%steps, q, v)
         self%evaluations = self%method%evaluations
-        if (.not. all(ieee_is_finite(q))) call fail(error, "the state is not finite", &
+        if (.not. all_finite(q)) call fail(error, "the state is not finite", &
                                                     status_numbers)
     end subroutine solve_fixed
 

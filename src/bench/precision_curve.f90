@@ -2,6 +2,7 @@ module lagrangia_precision_curve
     !! The arithmetic of a benchmark: medians, and the time that an error costs.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
     public :: best, confirmed, median, not_known, ratio, time_to_error
@@ -51,7 +52,7 @@ contains
         real(dp) :: quotient
 
         quotient = not_known()
-        if (abs(y) > 0.0_dp) quotient = x/y
+        if (is_nonzero(y)) quotient = x/y
     end function ratio
 
     pure function confirmed(errors) result(sound)

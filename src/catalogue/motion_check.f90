@@ -1,9 +1,9 @@
 module lagrangia_motion_check
     !! Whether what a system brings of its motion, a closed form or itself without a cyclic
     !! coordinate, obeys its equations of motion.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: reduced_t, system_t
@@ -107,7 +107,7 @@ contains
         if (.not. motion%has_state) return
         call motion%state_at(t, here, rate)
         call system%accelerations(t, q, v, a)
-        if (.not. all(ieee_is_finite(a))) return
+        if (.not. all_finite(a)) return
         size_q = 1.0_dp + maxval(abs(q))
         size_rates = maxval(abs(v)) + maxval(abs(a)) + bound*size_q
         if (.not. (all(abs(here - q) <= bound*size_q) &

@@ -18,6 +18,7 @@ module lagrangia_derive
     use lagrangia_fortran_statements, only: fortran_lines_t
     use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_number_text, only: scientific
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene_reader, only: read_named_system
@@ -145,7 +146,7 @@ contains
                     cycle
                 else if (numbers) then
                     call put_line("       "//both(c, digits))
-                else if (this%kind == line_equilibrium .and. abs(c%program) > 0.0_dp) then
+                else if (this%kind == line_equilibrium .and. is_nonzero(c%program)) then
                     call put_line("       = "//scientific(c%formula, 6)//", Newton's method "// &
                                   scientific(c%program, 6))
                 else if (this%kind == line_decay) then

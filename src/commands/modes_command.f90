@@ -17,6 +17,7 @@ module lagrangia_modes_command
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
     use lagrangia_modes_files, only: claim_modes, prepare_modes, write_mode
     use lagrangia_modes_film, only: animate_modes
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_output_file, only: refuse_unwritable
@@ -162,7 +163,7 @@ contains
         if (n <= widest) then
             call put_matrix("M", modes%mass)
             call put_matrix("K", modes%stiffness)
-            if (any(abs(modes%gyroscopic) > 0.0_dp)) call put_matrix("G", modes%gyroscopic)
+            if (any(is_nonzero(modes%gyroscopic))) call put_matrix("G", modes%gyroscopic)
         end if
         if (allocated(modes%basis)) call put_constraints(modes)
         if (modes%difference >= 0.0_dp) then
@@ -299,7 +300,7 @@ contains
 
         associate (omega2 => modes%analytic%omega2(j))
             difference = abs(modes%omega2(j) - omega2)
-            if (abs(omega2) > 0.0_dp) difference = difference/abs(omega2)
+            if (is_nonzero(omega2)) difference = difference/abs(omega2)
         end associate
     end function relative
 
@@ -340,7 +341,7 @@ contains
         character(18) :: text
 
         text = "0"
-        if (abs(value) <= 0.0_dp) return
+        if (is_zero(value)) return
         if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
             write (text, "(ss, f18.11)") value
         else
@@ -355,7 +356,7 @@ contains
         character(:), allocatable :: text
 
         text = scientific(value, 2)
-        if (abs(value) <= 0.0_dp) text = "0"
+        if (is_zero(value)) text = "0"
     end function short
 
     subroutine put_json(name, system, modes)

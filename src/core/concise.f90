@@ -2,6 +2,7 @@ module lagrangia_concise
     !! Numbers with their uncertainty in the concise form: `0.48312(2)` is 0.48312 give or take
     !! 0.00002. Source: JCGM 100:2008 (the GUM), sec. 7.2.2.
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_number_text, only: fixed
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -34,7 +35,7 @@ contains
             call round_up(doubt, digit, place)
         end do
         top = place
-        if (abs(value) > 0.0_dp) top = max(place, power_of(value, 6))
+        if (is_nonzero(value)) top = max(place, power_of(value, 6))
         if (place <= 0 .and. top >= -4 .and. top <= 6) then
             text = plain(value, -place)//"("//digit//")"
         else
@@ -68,7 +69,7 @@ contains
         integer :: top
 
         rounded = number
-        if (abs(number) <= 0.0_dp) return
+        if (is_zero(number)) return
         top = power_of(number, 16)
         if (top < place) then
             rounded = nint(number/10.0_dp**place)*10.0_dp**place
@@ -112,7 +113,7 @@ contains
         integer :: top, digits
 
         top = place - 1
-        if (abs(value) > 0.0_dp) top = power_of(value, 16)
+        if (is_nonzero(value)) top = power_of(value, 16)
         if (top < place) then
             text = to_text(nint(value/10.0_dp**place))//behind//"e"//to_text(place)
             return

@@ -8,6 +8,7 @@ module lagrangia_algebra
                                     kind_function, kind_negation, kind_number, kind_power, &
                                     kind_product, kind_quotient, kind_sum, kind_symbol
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_zero
     use lagrangia_polynomial, only: atom_power, most_atoms, number_polynomial, operator(+), &
                                     operator(-), operator(*), operator(==), polynomial_t, &
                                     term_of, whole_polynomial
@@ -110,7 +111,7 @@ contains
                 select case (node%kind)
                 case (kind_number)
                     at(i) = number_polynomial(node%number)
-                    if (abs(abs(node%number%value) - pi) <= 0.0_dp) then
+                    if (is_zero(abs(node%number%value) - pi)) then
                         call self%atom_number(atom_number_pi, 0, number_t(), polynomial_t(), atom)
                         at(i) = atom_power(atom, 1)
                         if (node%number%value < 0.0_dp) at(i) = -at(i)

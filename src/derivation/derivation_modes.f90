@@ -14,6 +14,7 @@ module lagrangia_derivation_modes
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_page_layout, only: lay_out, lay_out_factors, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t, whole_polynomial
@@ -109,14 +110,14 @@ contains
                                 "rest, or has too many terms")
             return
         end if
-        away = any(abs(modes%at) > 0.0_dp) .and. .not. any_place(at)
+        away = any(is_nonzero(modes%at)) .and. .not. any_place(at)
         if (away .and. of_position) then
             call self%add_words("the equilibrium is not at zero: 'lagrangia modes' has the numbers")
             return
         end if
         drag = system%nonconservative .or. .not. is_antisymmetric(gyroscopic)
         letter = merge("C", "G", drag)
-        if (drag .and. any(abs(modes%gyroscopic) > 0.0_dp)) letter = "B"
+        if (drag .and. any(is_nonzero(modes%gyroscopic))) letter = "B"
         turning = "M q_ddot + K q"
         if (any_terms(gyroscopic)) turning = "M q_ddot + "//letter//" q_dot + K q"
         if (any_place(at)) then

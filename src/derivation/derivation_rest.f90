@@ -12,6 +12,7 @@ module lagrangia_derivation_rest
                                     kind_symbol
     use lagrangia_formula_size, only: evaluate
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     use lagrangia_small_oscillations, only: modes_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -187,7 +188,7 @@ contains
 
         largest = maxval(abs(modes%omega2))
         noise = rounding*largest
-        if (all(abs(modes%gyroscopic) <= 0.0_dp) .or. size(modes%omega2) == 1) return
+        if (all(is_zero(modes%gyroscopic)) .or. size(modes%omega2) == 1) return
         distance = minval(abs(modes%omega2 - modes%omega2(i)), &
                           [(j /= i, j=1, size(modes%omega2))])
         noise = noise*largest/max(distance, sqrt(rounding)*largest)

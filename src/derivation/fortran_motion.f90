@@ -6,7 +6,6 @@ module lagrangia_fortran_motion
     use lagrangia_formula_fortran, only: fortran_text
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: append_word, to_text, word_t
-    use lagrangia_written_constraints, only: is_zero
     use lagrangia_written_motion, only: written_motion_t
     implicit none (type, external)
     private
@@ -40,7 +39,7 @@ contains
         allocate (body%angles(0), body%list(0), body%mass(n, n))
         do i = 1, n
             do j = i, n
-                body%mass(i, j) = .not. is_zero(motion%mass(i, j))
+                body%mass(i, j) = .not. motion%mass(i, j)%is_zero()
                 if (body%mass(i, j)) call state(motion%mass(i, j), mass(i, j))
             end do
             call state(motion%right(i), "force"//to_text(i))

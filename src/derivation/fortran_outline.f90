@@ -6,6 +6,7 @@ module lagrangia_fortran_outline
     use lagrangia_fortran_names, only: find_names
     use lagrangia_fortran_statements, only: fortran_lines_t, literal
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_text, only: to_text, word_t
     use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
@@ -125,7 +126,7 @@ contains
         do k = 1, 3
             do i = 1, size(values)
                 values(i) = d%parameters(i)%value(1)*(1.0_dp + 0.3_dp*sin(real(i*k, dp)))
-                if (abs(values(i)) <= 0.0_dp) values(i) = 0.1_dp*k
+                if (is_zero(values(i))) values(i) = 0.1_dp*k
             end do
             call other%configure(values, error)
             if (allocated(error)) cycle
@@ -162,7 +163,7 @@ contains
                 maker = "real_number"
                 if (p%lower < -huge(p%lower)/2 .and. p%value(1) > 0.0_dp .and. &
                     in_mass_matrix(system, i)) maker = "positive"
-                if (abs(p%lower) <= 0.0_dp) maker = trim(merge("positive   ", "nonnegative", &
+                if (is_zero(p%lower)) maker = trim(merge("positive   ", "nonnegative", &
                                                                p%open_lower))
                 items(i)%text = maker//"("//literal(p%name)//", "//literal(p%unit)//", "// &
                                 literal(p%meaning)//", "//to_text(p%value(1))//"_dp)"
@@ -172,7 +173,7 @@ contains
         do i = 1, size(parameters)
             name = "d%parameters("//to_text(i)//")%"
             associate (p => parameters(i))
-                if (p%lower > -huge(p%lower) .and. abs(p%lower) > 0.0_dp) then
+                if (p%lower > -huge(p%lower) .and. is_nonzero(p%lower)) then
                     call lines%add(8, name//"lower = "//to_text(p%lower)//"_dp")
                     if (p%open_lower) call lines%add(8, name//"open_lower = .true.")
                 end if

@@ -298,10 +298,7 @@ contains
                 call multiply(product, second)
             end if
         end if
-        if (e%count == 0) then
-            e = product
-            if (coefficient%value < 0.0_dp) e = -e
-        else if (is_nothing(e)) then
+        if (e%is_zero()) then
             e = product
             if (coefficient%value < 0.0_dp) e = -e
         else if (coefficient%value < 0.0_dp) then
@@ -318,15 +315,6 @@ contains
 
         e = constant(real(n, dp))
     end function whole_number
-
-    pure function is_nothing(e) result(yes)
-        !! Is it the number zero?
-        type(expression_t), intent(in) :: e
-        logical :: yes
-
-        yes = e%count == 1
-        if (yes) yes = e%nodes(1)%kind == 0 .and. abs(e%nodes(1)%number%value) <= 0.0_dp
-    end function is_nothing
 
     pure recursive subroutine multiply_atoms(algebra, roles, powers, wanted, e)
         !! Times the positive powers of wanted atoms, in the order of their roles.

@@ -94,11 +94,11 @@ contains
         integer, allocatable :: wider(:, :)
         integer :: at, i, n
 
-        if (is_zero(coefficient)) return
+        if (coefficient%is_zero()) return
         call locate(self, powers, at, i)
         if (i > 0) then
             self%coefficient(i) = self%coefficient(i) + coefficient
-            if (is_zero(self%coefficient(i))) call self%remove(i)
+            if (self%coefficient(i)%is_zero()) call self%remove(i)
             return
         end if
         n = self%terms
@@ -182,14 +182,6 @@ contains
         end do
         self%terms = self%terms - 1
     end subroutine remove
-
-    pure function is_zero(number) result(yes)
-        !! Exactly.
-        type(number_t), intent(in) :: number
-        logical :: yes
-
-        yes = abs(number%value) <= 0.0_dp
-    end function is_zero
 
     pure function is_number(self) result(yes)
         !! Has it no atoms?

@@ -10,6 +10,7 @@ module lagrangia_sweep_axis
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_number_reader, only: to_integer
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
@@ -116,7 +117,7 @@ contains
                  .not. ieee_is_finite(ends(2) - ends(1))) then
             call fail(error, "the ends of the axis "//trim(axis%name)//" are too far apart for "// &
                       "doubles")
-        else if (count == 1 .and. abs(ends(2) - ends(1)) > 0.0_dp) then
+        else if (count == 1 .and. is_nonzero(ends(2) - ends(1))) then
             call fail(error, "the axis "//trim(axis%name)//" has one value but two ends")
         end if
         if (allocated(error)) return

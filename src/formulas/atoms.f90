@@ -8,6 +8,7 @@ module lagrangia_atoms
                                    atom_symbol, atom_t, class_acceleration, class_coordinate, &
                                    class_function, class_parameter, class_time, class_velocity, &
                                    compare, is_coefficient, order_t, sum_t, term_t
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_sums, only: equal_sums
     use lagrangia_symbols, only: symbols_t
     implicit none (type, external)
@@ -219,7 +220,7 @@ contains
         if (first /= 0) return
         do i = 1, a%count
             difference = a%terms(i)%coefficient%value - b%terms(i)%coefficient%value
-            if (abs(difference) > 0.0_dp) first = merge(-1, 1, difference < 0.0_dp)
+            if (is_nonzero(difference)) first = merge(-1, 1, difference < 0.0_dp)
             if (first /= 0) return
         end do
     end function compare_sums

@@ -12,6 +12,7 @@ module lagrangia_canonical_form
     use lagrangia_kinds, only: dp, i8
     use lagrangia_layout, only: write_sum
     use lagrangia_monomials, only: atom_number_pi, atom_power, atom_symbol, sum_t
+    use lagrangia_number_class, only: is_zero
     use lagrangia_reduction, only: reduce, whole_power
     use lagrangia_sums, only: constant_sum, is_constant, plus, scaled, times
     use lagrangia_symbols, only: symbols_t
@@ -113,7 +114,7 @@ contains
             end if
             if (node%kind == kind_product) then
                 call times(table%order, inverse(node%left), inverse(node%right), new, fits)
-            else if (n%is_whole() .and. abs(n%value) > 0.0_dp .and. abs(n%value) < 1000.0_dp) then
+            else if (n%is_whole() .and. .not. n%is_zero() .and. abs(n%value) < 1000.0_dp) then
                 call whole_power(table, value(node%left), -int(n%numerator), new, fits)
             else
                 call whole_power(table, value(i), -1, new, fits)
@@ -138,7 +139,7 @@ contains
                    b => expression%nodes(i)%right)
             select case (node%kind)
             case (kind_number)
-                if (abs(abs(node%number%value) - pi) <= 0.0_dp) then
+                if (is_zero(abs(node%number%value) - pi)) then
                     call find_atom(table, atom_number_pi, 0, none, none, atom)
                     new = scaled(single_factor(atom, 1), &
                                  number_of(sign(1.0_dp, node%number%value)))

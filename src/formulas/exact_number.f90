@@ -17,6 +17,7 @@ module lagrangia_exact_number
     contains
         procedure :: is_exact
         procedure :: is_whole
+        procedure :: is_zero
     end type number_t
 
     interface operator(+)
@@ -59,6 +60,14 @@ contains
 
         yes = self%denominator == 1_i8
     end function is_whole
+
+    elemental function is_zero(self) result(yes)
+        !! Is it 0, a fraction or a real?
+        class(number_t), intent(in) :: self
+        logical :: yes
+
+        yes = abs(self%value) <= 0.0_dp
+    end function is_zero
 
     elemental function ratio(numerator, denominator) result(number)
         !! \(p/q\) in lowest terms; a real if a term is not below \(2^{53}\).

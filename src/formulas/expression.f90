@@ -49,6 +49,7 @@ module lagrangia_expression
         procedure :: add_symbol
         procedure :: append
         procedure :: depends_on
+        procedure :: is_zero
         procedure :: pruned
         procedure, private :: add_node
     end type expression_t
@@ -318,6 +319,16 @@ contains
             yes = yes .or. (self%nodes(i)%kind == kind_symbol .and. self%nodes(i)%which == which)
         end do
     end function depends_on
+
+    pure function is_zero(self) result(yes)
+        !! By its form: it is the number 0.
+        class(expression_t), intent(in) :: self
+        logical :: yes
+
+        yes = self%count == 0
+        if (self%count /= 1) return
+        yes = self%nodes(1)%kind == kind_number .and. self%nodes(1)%number%is_zero()
+    end function is_zero
 
     pure function pruned(self, root) result(e)
         !! The formula whose root is at `root`, without the nodes that it does not need.

@@ -3,6 +3,7 @@ submodule (lagrangia_formula_parser) lagrangia_formula_operators
     use lagrangia_expression, only: f_exp
     use lagrangia_formula_reader, only: largest
     use lagrangia_indexed_names, only: open_sum, skip_body
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_solved_place, only: arc_cosine, arc_sine
     implicit none (type, external)
 
@@ -27,7 +28,7 @@ contains
         if (next_is(reader, "^")) then
             reader%at = reader%at + 1
             token = reader%tokens%token(reader%at)
-            if (token%kind /= is_number .or. abs(token%value - anint(token%value)) > 0.0_dp) then
+            if (token%kind /= is_number .or. is_nonzero(token%value - anint(token%value))) then
                 call refuse(reader, "'"//name//"^' takes a whole number, "//name//"^2(x); "// &
                             "write 1/"//name//"(x) or "//name//"(x)^n for others", error)
                 return

@@ -6,6 +6,7 @@ module lagrangia_formula_text
                                     kind_negation, kind_number, kind_power, kind_product, &
                                     kind_quotient, kind_sum, kind_symbol, node_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_zero
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
@@ -158,7 +159,7 @@ contains
             if ((number%denominator > familiar .or. mod(number%denominator, 5_i8) == 0_i8) .and. &
                 abs(number%value) < 1e5_dp .and. mod(10_i8**9, number%denominator) == 0_i8) return
             text = to_text(number%numerator)//"/"//to_text(number%denominator)
-        else if (abs(abs(number%value) - pi) <= 0.0_dp) then
+        else if (is_zero(abs(number%value) - pi)) then
             text = "pi"
             if (number%value < 0.0_dp) text = "-pi"
         end if

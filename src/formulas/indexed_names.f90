@@ -7,6 +7,7 @@ module lagrangia_indexed_names
     use lagrangia_formula_tokens, only: is_end, is_name, is_number
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: is_zero
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -98,7 +99,7 @@ contains
                 which = findloc(reader%index_names(:reader%indices) == &
                                 reader%tokens%word(reader%at), .true., 1)
                 if (token%kind == is_number .and. token%value <= largest .and. &
-                    abs(token%value - anint(token%value)) <= 0.0_dp) then
+                    is_zero(token%value - anint(token%value))) then
                     value = value + sign*nint(token%value)
                 else if (token%kind == is_name .and. which > 0) then
                     value = value + sign*reader%index_values(which)

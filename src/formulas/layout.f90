@@ -13,6 +13,7 @@ module lagrangia_layout
     use lagrangia_monomials, only: atom_function, atom_number_pi, atom_sum, atom_symbol, &
                                    inverse, is_coefficient, multiply, &
                                    same_state_part, sum_t, term_t
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_sums, only: add_term, common_factor
     implicit none (type, external)
     private
@@ -291,7 +292,7 @@ contains
             over = c  ! 3/2 m x^2
             below%coefficient = number_of(1.0_dp)
         end if
-        if (abs(over%value - 1.0_dp) > 0.0_dp) call written%e%add_number(over, node)
+        if (is_nonzero(over%value - 1.0_dp)) call written%e%add_number(over, node)
         if (bracket > 0) call join(written, kind_product, bracket, node)
         if (below%count == 0 .and. below%coefficient%value > 1.0_dp) then
             call put_halved(table, parameters, below%coefficient, bracket > 0, written, node)

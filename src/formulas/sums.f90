@@ -21,7 +21,7 @@ contains
         type(term_t), allocatable :: larger(:)
         integer :: first, found, last, middle
 
-        if (abs(new%coefficient%value) <= 0.0_dp) return
+        if (new%coefficient%is_zero()) return
         if (.not. allocated(s%terms)) allocate (s%terms(4))
         first = 1
         last = s%count
@@ -30,7 +30,7 @@ contains
             found = compare(order, new, s%terms(middle))
             if (found == 0) then
                 s%terms(middle)%coefficient = s%terms(middle)%coefficient + new%coefficient
-                if (abs(s%terms(middle)%coefficient%value) > 0.0_dp) return
+                if (.not. s%terms(middle)%coefficient%is_zero()) return
                 s%terms(middle:s%count - 1) = s%terms(middle + 1:s%count)
                 s%count = s%count - 1
                 return
@@ -57,7 +57,7 @@ contains
 
         allocate (s%terms(1))
         s%terms(1)%coefficient = value
-        if (abs(value%value) > 0.0_dp) s%count = 1
+        if (.not. value%is_zero()) s%count = 1
     end function constant_sum
 
     pure function is_constant(s) result(yes)

@@ -1,7 +1,6 @@
 module lagrangia_amplitude_ratios
     !! How the coordinates go together in a normal mode: `A_2/A_1 = sqrt(2)`, or
     !! `(k + k_c - m omega^2) A_1 - k_c A_2 = 0`.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_formula_parser, only: parse_formula
@@ -9,6 +8,7 @@ module lagrangia_amplitude_ratios
     use lagrangia_lapack, only: solve_linear
     use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_rounded_numbers, only: holds_at
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -61,7 +61,7 @@ contains
             if (residual%depends_on(i)) is_one = .false.
         end do
         if (.not. is_one) return
-        if (any(abs(samples%turning) > 0.0_dp)) then
+        if (any(is_nonzero(samples%turning))) then
             judgement%verdict = is_unreadable
             judgement%remark = "amplitudes of modes with drag or gyroscopic forces are not "// &
                                "graded: the coordinates are not in phase"
@@ -71,7 +71,7 @@ contains
                           residual%depends_on(samples%frequency + 1)
         call compare(samples%stiffness, samples%inertia)
         if (.not. (known .and. yes)) then
-            if (all(ieee_is_finite(samples%other_stiffness))) then
+            if (all_finite(samples%other_stiffness)) then
                 if (.not. known) call compare(samples%other_stiffness, samples%other_inertia)
             end if
         end if
@@ -197,8 +197,8 @@ contains
         n = size(omega2)
         omega2 = 0.0_dp
         amplitudes = 0.0_dp
-        known = all(ieee_is_finite(stiffness)) .and. all(ieee_is_finite(inertia)) .and. &
-                any(abs(stiffness) > 0.0_dp)
+        known = all_finite(stiffness) .and. all_finite(inertia) .and. &
+                any(is_nonzero(stiffness))
         if (.not. known) return
         do j = 1, n
             call solve_linear(inertia, stiffness(:, j), a(:, j), error)
@@ -206,7 +206,7 @@ contains
             if (.not. known) return
         end do
         call dgeev("N", "V", n, a, n, omega2, im, none, 1, amplitudes, n, work, size(work), info)
-        known = info == 0 .and. all(abs(im) <= 0.0_dp)
+        known = info == 0 .and. all(is_zero(im))
         do j = 2, n
             known = known .and. all(abs(omega2(:j - 1) - omega2(j)) > equal*maxval(abs(omega2)))
         end do

@@ -1,13 +1,13 @@
 module lagrangia_consequences
     !! A false statement that follows from lines before it that are wrong: a student makes a mistake
     !! once, and goes on from it as one should.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: time_derivative
     use lagrangia_expression, only: expression_t, kind_difference, kind_symbol, operator(-), symbol
     use lagrangia_formula_program, only: new_formula_program
     use lagrangia_homework, only: statement_t
     use lagrangia_judgement, only: is_right, judge, judgement_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_sample_names, only: draws, role_acceleration, role_frequency, role_known, &
                                       samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -102,7 +102,7 @@ contains
         call evaluate_nodes(one, samples%elsewhere, a)
         call evaluate_nodes(other, samples%elsewhere, b)
         ratio = a(:, one%count)/b(:, other%count)
-        yes = all(ieee_is_finite(ratio))
+        yes = all_finite(ratio)
         if (yes) yes = maxval(ratio) - minval(ratio) <= equal*maxval(abs(ratio))
     end function is_multiple
 
@@ -218,7 +218,7 @@ contains
             call evaluate_nodes(residual, values, moved)
             do i = 1, truth%ndof
                 ratio = reshape((moved(:, n) - here(:, n))/truth%mass(i, k, :), [states, draws])
-                if (.not. all(ieee_is_finite(ratio)) .or. all(abs(ratio) <= 0.0_dp)) cycle
+                if (.not. all_finite(ratio) .or. all(is_zero(ratio))) cycle
                 if (.not. all([(is_one(ratio(:, j)), j=1, draws)])) cycle
                 like(i) = like(i) + truth%ndof + 1
                 if (is_one(reshape(ratio, [states*draws]))) like(i) = like(i) + 1

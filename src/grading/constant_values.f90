@@ -7,6 +7,7 @@ module lagrangia_constant_values
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
+    use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     implicit none (type, external)
@@ -74,7 +75,7 @@ contains
                 if (.not. any(abs(step) > 1e-15_dp*abs(values(:, places)))) exit
             end do
             do j = 1, size(step, 1)
-                if (all(ieee_is_finite(best(j, :)))) cycle
+                if (all_finite(best(j, :))) cycle
                 if (.not. all(abs(values(j, places)) < largest)) cycle
                 if (.not. all(abs(step(j, :)) <= 1e-13_dp*(abs(values(j, places)) + 1e-3_dp))) cycle
                 if (.not. all([(vanishes(equations(k), values(j:j, :)), k=1, size(places))])) cycle
@@ -112,8 +113,8 @@ contains
                 cycle
             end if
             step(row, :) = ieee_value(1.0_dp, ieee_quiet_nan)
-            if (.not. all(ieee_is_finite(jacobian(row, :, :)))) cycle
-            if (.not. all(ieee_is_finite(f(row, :)))) cycle
+            if (.not. all_finite(jacobian(row, :, :))) cycle
+            if (.not. all_finite(f(row, :))) cycle
             call solve_linear(jacobian(row, :, :), f(row, :), x, error)
             if (.not. allocated(error)) step(row, :) = x
         end do

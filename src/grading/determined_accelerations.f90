@@ -1,11 +1,11 @@
 module lagrangia_determined_accelerations
     !! Whether the right statements of a sheet determine the motion: which accelerations follow.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: role_acceleration, role_known, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: holds
@@ -41,8 +41,8 @@ contains
             call find_equation(judgements(i), samples, equation)
             if (equation%count == 0) cycle
             call differentiate(equation, samples, columns, rows(i, :))
-            if (all(abs(rows(i, :)) <= 0.0_dp)) cycle
-            has_accelerations = any(abs(rows(i, :samples%ndof)) > 0.0_dp)
+            if (all(is_zero(rows(i, :)))) cycle
+            has_accelerations = any(is_nonzero(rows(i, :samples%ndof)))
             rows(i, :) = rows(i, :)/maxval(abs(rows(i, :)))
             if (has_accelerations) equations = equations + 1
         end do
@@ -110,12 +110,12 @@ contains
             do j = 1, size(columns)
                 values = samples%values(k:k, :)
                 step = 0.5_dp*values(1, columns(j))
-                if (.not. abs(step) > 0.0_dp) step = 1.0_dp
+                if (.not. is_nonzero(step)) step = 1.0_dp
                 values(1, columns(j)) = values(1, columns(j)) - step
                 call evaluate_nodes(residual, values, after)
                 row(j) = (before(1, residual%count) - after(1, residual%count))/step
             end do
-            if (all(ieee_is_finite(row))) return
+            if (all_finite(row)) return
         end do
         row = 0.0_dp
     end subroutine differentiate

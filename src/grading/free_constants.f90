@@ -11,6 +11,7 @@ module lagrangia_free_constants
     use lagrangia_formula_text, only: typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: is_zero
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
@@ -137,7 +138,7 @@ contains
             end do
             do k = 2, n
                 if (symbols%rates(k) < 1) cycle
-                if (all(abs(samples%values(:, symbols%rates(k))) <= 0.0_dp)) symbols%rates(k) = 0
+                if (all(is_zero(samples%values(:, symbols%rates(k))))) symbols%rates(k) = 0
             end do
         end subroutine find_rates
 

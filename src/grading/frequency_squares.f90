@@ -5,6 +5,7 @@ module lagrangia_frequency_squares
                                     kind_power, kind_product, kind_quotient, kind_symbol, &
                                     operator(*), operator(**), operator(/), symbol
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
     public :: square, with_squares
@@ -101,7 +102,7 @@ contains
         associate (number => formula%nodes(place)%number%value)
             if (abs(number) > 20.0_dp) return
             half = nint(number/2.0_dp)
-            if (abs(number - 2*half) > 0.0_dp) half = 0
+            if (is_nonzero(number - 2*half)) half = 0
         end associate
     end function half_exponent
 end module lagrangia_frequency_squares

@@ -9,6 +9,7 @@ module lagrangia_further_slips
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: find_product, letter_t
+    use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: draws, role_coordinate, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes, summands
     use lagrangia_slip_search, only: holds
@@ -155,7 +156,7 @@ contains
         call evaluate_nodes(left, values, of_left)
         call evaluate_nodes(right, values, of_right)
         associate (ratio => of_left(:, left%count)**2/of_right(:, right%count))
-            if (.not. all(ieee_is_finite(ratio))) return
+            if (.not. all_finite(ratio)) return
             if (maxval(ratio) - minval(ratio) > equal*maxval(abs(ratio))) return
             if (maxval(of_right(:, right%count)) - minval(of_right(:, right%count)) <= &
                 equal*maxval(abs(of_right(:, right%count)))) return
@@ -245,7 +246,7 @@ contains
         logical :: yes
         integer :: draw
 
-        yes = all(ieee_is_finite(x))
+        yes = all_finite(x)
         do draw = 1, draws
             associate (one => x((draw - 1)*states + 1:draw*states))
                 if (yes) yes = maxval(one) - minval(one) <= equal*maxval(abs(one))

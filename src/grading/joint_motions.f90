@@ -5,6 +5,7 @@ module lagrangia_joint_motions
     use lagrangia_expression, only: expression_t, whole
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: put_frequencies, rate_of, values_of
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
@@ -75,12 +76,12 @@ contains
                 turns = turning(:, :, draw)
                 where (.not. ieee_is_finite(turns)) turns = 0.0_dp
                 do i = 1, n
-                    if (any(motions%count == 0 .and. (abs(inertia(i, :, draw)) > 0.0_dp .or. &
-                            abs(stiffness(i, :, draw)) > 0.0_dp .or. abs(turns(i, :)) > &
+                    if (any(motions%count == 0 .and. (is_nonzero(inertia(i, :, draw)) .or. &
+                            is_nonzero(stiffness(i, :, draw)) .or. abs(turns(i, :)) > &
                                                       0.0_dp))) cycle
                     terms = inertia(i, :, draw)*rates(row, :, 3) + turns(i, :)*rates(row, :, 2) + &
                             stiffness(i, :, draw)*rates(row, :, 1)
-                    if (.not. all(ieee_is_finite(terms)) .or. all(abs(terms) <= 0.0_dp)) cycle
+                    if (.not. all_finite(terms) .or. all(is_zero(terms))) cycle
                     compared = compared + 1
                     if (abs(sum(terms)) > tolerance*sum(abs(inertia(i, :, draw)*rates(row, :, 3)) &
                         + abs(stiffness(i, :, draw)*rates(row, :, 1)))) solve = .false.

@@ -1,10 +1,10 @@
 module lagrangia_letter_products
     !! A factor that a student forgot or added, as a number or a product of parameters and of sums
     !! of them: `(m1 + m2)/m1`, `2 m r^2`.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: constant, expression_t, kind_difference, kind_sum, &
                                     operator(*), operator(**), operator(/), symbol, whole
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     implicit none (type, external)
@@ -79,8 +79,8 @@ contains
 
         call evaluate_nodes(formula, samples%values(1::states, :), results)
         value = results(:, formula%count)
-        if (.not. all(ieee_is_finite(value))) return
-        if (any(abs(value) <= 0.0_dp)) return
+        if (.not. all_finite(value)) return
+        if (any(is_zero(value))) return
         if (all(abs(value - value(1)) <= equal*abs(value))) return
         do i = 1, size(letters)
             if (any(abs(value - letters(i)%value) > equal*abs(value))) cycle
@@ -168,7 +168,7 @@ contains
         end do
         denominator = denominator_of(number)
         number = anint(number*denominator)
-        begun = abs(number - 1.0_dp) > 0.0_dp .or. denominator > 1 .or. .not. any(powers > 0)
+        begun = is_nonzero(number - 1.0_dp) .or. denominator > 1 .or. .not. any(powers > 0)
         if (begun) product = constant(number)
         if (denominator > 1) product = product/whole(denominator)
         do i = 1, size(letters)

@@ -4,6 +4,7 @@ module lagrangia_mode_choice
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
+    use lagrangia_number_class, only: is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
     implicit none (type, external)
@@ -57,7 +58,7 @@ contains
                 yes = .false.
                 do k = size(omega2, 2), 1, -1
                     if (omega2(draw, k) <= 0.0_dp .and. needs_root) cycle
-                    if (abs(omega2(draw, k)) <= 0.0_dp) cycle
+                    if (is_zero(omega2(draw, k))) cycle
                     found = .true.
                     rows(:, samples%frequency) = sqrt(abs(omega2(draw, k)))
                     rows(:, samples%frequency + 1) = omega2(draw, k)
@@ -70,7 +71,7 @@ contains
                     rows(:, samples%frequency) = ieee_value(1.0_dp, ieee_quiet_nan)
                     ! that mode, perhaps
                 else
-                    right_one = right_one .and. all(abs(omega2(draw, :)) <= 0.0_dp)
+                    right_one = right_one .and. all(is_zero(omega2(draw, :)))
                 end if
             end associate
         end do

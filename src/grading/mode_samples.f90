@@ -5,6 +5,7 @@ module lagrangia_mode_samples
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
@@ -53,7 +54,7 @@ contains
         end if
         if (allocated(modes%analytic%elsewhere)) then
             start = modes%analytic%elsewhere
-        else if (any(abs(start) > 0.0_dp)) then
+        else if (any(is_nonzero(start))) then
             start = 0.0_dp
         else
             return
@@ -93,7 +94,7 @@ contains
 
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
-            if (any(abs(beside) > 0.0_dp) .or. allocated(modes%basis)) return
+            if (any(is_nonzero(beside)) .or. allocated(modes%basis)) return
             turning = modes%gyroscopic + drag
         end subroutine put_turning
 
@@ -129,7 +130,7 @@ contains
         integer :: draw, n
 
         n = samples%ndof
-        yes = all(abs(samples%omega2(:, :n)) <= 0.0_dp)
+        yes = all(is_zero(samples%omega2(:, :n)))
         do draw = 1, draws
             associate (place => samples%other_equilibrium(:, draw))
                 tilted = .not. any(abs(place) > 1e-9_dp) .and. &

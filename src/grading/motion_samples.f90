@@ -1,7 +1,6 @@
 module lagrangia_motion_samples
     !! What a statement about a system may name, and the values of all these names on its motion: at
     !! states at random, with parameters at random, as the equations of motion have it.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_damped_rates, only: damping_matrix
     use lagrangia_description, only: default_values, description_t, name_length, value_names
     use lagrangia_errors, only: error_t, fail
@@ -12,6 +11,7 @@ module lagrangia_motion_samples
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_mode_samples, only: add_modes, put_places, stable_somewhere
     use lagrangia_named_values, only: motion_state_t, path
+    use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_parameter_conditions, only: condition_t, satisfy
     use lagrangia_random_draws, only: random_t
@@ -166,7 +166,7 @@ contains
         call find_modes(drawn, likely_equilibrium(drawn), .false., modes, error)
         if (allocated(error)) return
         call damping_matrix(drawn, modes%at, drag)
-        yes = abs(drag(1, 1)) > 0.0_dp
+        yes = is_nonzero(drag(1, 1))
         if (.not. yes) return
         ! of dry friction, say, the first term is no decay rate
         call drawn%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t()], still)
@@ -217,14 +217,14 @@ contains
         call put_values(samples, system, d, row, t, q, v, error)
         if (allocated(error)) return
         values = samples%values(row, :)
-        if (.not. any(abs(values) > 0.0_dp .and. abs(values) < small)) return
+        if (.not. any(is_nonzero(values) .and. abs(values) < small)) return
         if (allocated(samples%mass)) mass = samples%mass(:, :, row)
         noise = 0.0_dp
         call system%describe(now)
         allocate (parameters, source=default_values(now))
         allocate (beside, source=system)
         do k = 1, 8
-            if (all(noise > 0.0_dp .or. .not. abs(values) > 0.0_dp .or. abs(values) >= small)) exit
+            if (all(noise > 0.0_dp .or. .not. is_nonzero(values) .or. abs(values) >= small)) exit
             call beside%configure(parameters*[(1.0_dp + (-1)**(i/k)*2*epsilon(1.0_dp), &
                                                i=1, size(parameters))], refusal)
             if (.not. allocated(refusal)) call put_values(samples, beside, d, row, t, q, v, refusal)
@@ -272,7 +272,7 @@ contains
         call put_mass()
         call put_derivatives()
         call follow_letters(samples, row)
-        if (.not. all(ieee_is_finite(samples%values(row, :)))) call fail(error, "not finite")
+        if (.not. all_finite(samples%values(row, :))) call fail(error, "not finite")
     contains
         subroutine put(called, value)
             character(*), intent(in) :: called

@@ -1,7 +1,6 @@
 module lagrangia_motion_starts
     !! `theta(0) = theta_0`, `theta_dot(0) = 0`: one motion of many, on which a sheet's statements
     !! may hold although they do not on others: \(E=-mgl\cos\theta_0\).
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_declared_constants, only: with_constants
     use lagrangia_description, only: description_t, value_names
     use lagrangia_errors, only: error_t
@@ -15,6 +14,7 @@ module lagrangia_motion_starts
     use lagrangia_motion_samples, only: put_elsewhere, put_state
     use lagrangia_motion_values, only: values_of
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: role_known, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_system, only: system_t
@@ -113,7 +113,7 @@ contains
             if (.not. allocated(error)) then
                 call method%start(drawn, 0.0_dp, q, v, t)
                 call method%advance(drawn, 0.0_dp, t, 0_i8, 1_i8, q, v)
-                found = all(ieee_is_finite([q, v]))
+                found = all_finite([q, v])
                 if (any(abs([q, v] - begun(k, :)) > moved*max(1.0_dp, abs(begun(k, :))))) then
                     moving = moving + 1
                 end if

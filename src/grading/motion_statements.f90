@@ -1,7 +1,6 @@
 module lagrangia_motion_statements
     !! A motion that is written out, `theta = A cos(omega t + phi)`: right if it solves the equation
     !! of motion, or the linearised one. Names that nobody knows are its constants.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, is_function_name, operator(*), operator(+), &
                                     operator(-), operator(/), symbol, whole
@@ -14,6 +13,7 @@ module lagrangia_motion_statements
     use lagrangia_mode_samples, only: put_places
     use lagrangia_motion_values, only: draw_values, no_such_mode, put_frequencies, rate_of, &
                                        unknown_rate, values_of
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_rounded_numbers, only: put_exact_frequencies, to_digits, try_rounded
     use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
     use lagrangia_slip_search, only: holds
@@ -221,7 +221,7 @@ contains
         judged = .false.
         allocate (there, source=values)
         do about = 1, 2
-            if (about == 2 .and. any(abs(samples%omega2(:, samples%ndof + 1)) <= 0.0_dp)) exit
+            if (about == 2 .and. any(is_zero(samples%omega2(:, samples%ndof + 1)))) exit
             call put_frequencies(samples, merge(1, samples%ndof + 1, about == 1), there)
             if (about == 1) call put_places(samples, samples%equilibrium, there)
             if (about == 2) call put_places(samples, samples%other_equilibrium, there)
@@ -302,7 +302,7 @@ contains
         judgement%verdict = merge(is_right, is_wrong, yes)
         judgement%remark = ""
         if (.not. yes) judgement%remark = "it does not solve the equation of motion"
-        if (.not. yes .and. any(abs(samples%omega2) > 0.0_dp)) judgement%remark = "it solves "// &
+        if (.not. yes .and. any(is_nonzero(samples%omega2))) judgement%remark = "it solves "// &
             "neither the equation of motion nor the linearised one"
     end subroutine compare_exact
 
@@ -383,7 +383,7 @@ contains
                 if (from_equilibrium .or. order > 0) place = 0.0_dp
                 factors = coefficients(draw)
                 rates(row, 0) = rates(row, 0) - place
-                if (.not. all(ieee_is_finite([factors, rates(row, :)]))) cycle
+                if (.not. all_finite([factors, rates(row, :)])) cycle
                 finite = finite + 1
                 terms = sum(abs(factors*rates(row, :))) + abs(factors(1)*place)
                 if (abs(sum(factors*rates(row, :))) > tolerance*terms) holds_true = .false.
@@ -425,9 +425,9 @@ contains
         yes = .true.
         do j = 1, samples%ndof
             if (j == coordinate) cycle
-            yes = yes .and. all(abs(samples%inertia(coordinate, j, :)) <= 0.0_dp) .and. &
-                  all(abs(samples%stiffness(coordinate, j, :)) <= 0.0_dp) .and. &
-                  all(.not. abs(samples%turning(coordinate, j, :)) > 0.0_dp)
+            yes = yes .and. all(is_zero(samples%inertia(coordinate, j, :))) .and. &
+                  all(is_zero(samples%stiffness(coordinate, j, :))) .and. &
+                  all(.not. is_nonzero(samples%turning(coordinate, j, :)))
         end do
     end function is_alone
 

@@ -6,6 +6,7 @@ module lagrangia_order_of_approximation
                                     kind_power, kind_product, kind_quotient, kind_sum, &
                                     kind_symbol, operator(+), operator(-), symbol, whole
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_parameter, &
                                       role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
@@ -112,7 +113,7 @@ contains
         real(dp), allocatable :: signs(:)
 
         yes = .false.
-        if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
+        if (any(is_nonzero(shown(:, samples%place)))) return
         call summands(residual, nodes, signs)
         if (count(residual%nodes(nodes)%kind /= kind_number) /= 1) return
         yes = leading_order(residual, samples, .false., .false., shown) > 1.5_dp
@@ -226,7 +227,7 @@ contains
             if (of(base) <= 0 .or. expression%nodes(exponent)%kind /= kind_number) return
             times = expression%nodes(exponent)%number%value
             if (times < 0.0_dp .or. times > 100.0_dp) return
-            if (abs(times - anint(times)) <= 0.0_dp) product_of = of(base)*nint(times)
+            if (is_zero(times - anint(times))) product_of = of(base)*nint(times)
         end function of_power
     end function degree
 end module lagrangia_order_of_approximation

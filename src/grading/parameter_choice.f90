@@ -3,6 +3,7 @@ module lagrangia_parameter_choice
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_description, only: default_values, description_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_random_draws, only: random_t
     use lagrangia_text, only: word_t
     implicit none (type, external)
@@ -48,7 +49,7 @@ contains
                 if (p%count > 1) named = any([(is_named(trim(p%name)//"_"//"xyz"(k:k)), k=1, 3)])
                 do k = 1, p%count
                     if (named) cycle
-                    fixed(first + k) = abs(p%value(k)) <= 0.0_dp .or. p%computed /= "" .or. p%whole
+                    fixed(first + k) = is_zero(p%value(k)) .or. p%computed /= "" .or. p%whole
                     if (p%computed /= "") given(first + k) = ieee_value(given(1), ieee_quiet_nan)
                 end do
                 if (p%whole) fixed(first + 1) = .true.
@@ -62,7 +63,7 @@ contains
                     given(first + from:first + last) = p%value(from:last)
                 end do
                 if (.not. (named .or. any(is_set == i)) .and. p%computed == "" .and. &
-                    p%count == 1 .and. abs(p%value(1)) <= 0.0_dp) then
+                    p%count == 1 .and. is_zero(p%value(1))) then
                     if (kept /= "") kept = kept//", "
                     kept = kept//trim(p%name)//" = 0"
                 end if
@@ -150,7 +151,7 @@ contains
             associate (p => d%parameters(i))
                 do k = first + 1, first + p%count
                     if (fixed(k) .or. p%lower > -huge(p%lower)) cycle
-                    drawn_value(k) = abs(p%value(k - first)) > 0.0_dp
+                    drawn_value(k) = is_nonzero(p%value(k - first))
                     call random%uniform(0.5_dp, 2.0_dp, factor)
                     if (present(shrink)) factor = shrink*factor
                     if (drawn_value(k)) given(k) = factor*p%value(k - first)

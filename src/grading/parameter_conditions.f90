@@ -3,7 +3,7 @@ module lagrangia_parameter_conditions
     !! `l1 = l2`, `E_x = 0`. The lines behind are about systems for which that is true.
     use lagrangia_description, only: default_values, description_t, value_names
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_difference, kind_number, kind_symbol, &
+    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol, &
                                     operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_kinds, only: dp
@@ -67,7 +67,7 @@ contains
             if (.not. varies(one%symbol)) return
         end if
         if (.not. any([(one%formula%depends_on(k), k=1, size(samples%role))]) .and. &
-            .not. is_zero(one%formula)) return
+            .not. one%formula%is_zero()) return
         do k = 1, size(samples%role)
             if (one%formula%depends_on(k) .and. .not. is_parameter(k)) return
         end do
@@ -89,16 +89,6 @@ contains
             varies = minval(samples%values(:, which)) < maxval(samples%values(:, which))
         end function varies
     end subroutine find_condition
-
-    pure function is_zero(formula) result(yes)
-        !! The number 0: others stand behind `set:`.
-        type(expression_t), intent(in) :: formula
-        logical :: yes
-
-        yes = formula%count == 1
-        if (yes) yes = formula%nodes(1)%kind == kind_number .and. &
-                       abs(formula%nodes(1)%number%value) <= 0.0_dp
-    end function is_zero
 
     function is_own_formula(condition, d, samples) result(yes)
         !! Is it what the system has for this parameter where nobody gives it a value?

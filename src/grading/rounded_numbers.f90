@@ -6,6 +6,7 @@ module lagrangia_rounded_numbers
                                     kind_symbol, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
+    use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
     use lagrangia_statement_forms, only: speaks_of_place
@@ -143,7 +144,7 @@ contains
             f(1) = at(x(1))
             do k = 1, 20  ! a secant each
                 f(2) = at(x(2))
-                if (.not. abs(f(2) - f(1)) > 0.0_dp) exit
+                if (.not. is_nonzero(f(2) - f(1))) exit
                 x = [x(2), x(2) - f(2)*(x(2) - x(1))/(f(2) - f(1))]
                 f(1) = f(2)
             end do
@@ -276,7 +277,7 @@ contains
             call evaluate_nodes(left, values, results)
             given = values_of(right, values(:1, :))
             associate (r => results(:, left%count))
-                if (.not. all(ieee_is_finite(r))) cycle
+                if (.not. all_finite(r)) cycle
                 if (maxval(r) - minval(r) > 1e-9_dp*maxval(abs(r))) cycle
                 if (text /= "") text = text//" or "
                 text = text//brief(r(1), telling_digits(r(1), given(1)))

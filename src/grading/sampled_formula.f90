@@ -5,6 +5,7 @@ module lagrangia_sampled_formula
                                     kind_number, kind_power, kind_product, kind_quotient, &
                                     kind_sum, kind_symbol
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     implicit none (type, external)
     private
     public :: change_t
@@ -119,7 +120,7 @@ contains
                     sizes(:, i) = sizes(:, node%left)
                 case (kind_power)
                     sizes(:, i) = max(1.0_dp, abs(results(:, node%right)))
-                    where (abs(results(:, node%left)) > 0.0_dp)
+                    where (is_nonzero(results(:, node%left)))
                         sizes(:, i) = x*(sizes(:, node%left)/abs(results(:, node%left)))** &
                                       sizes(:, i)
                     else where
@@ -142,7 +143,7 @@ contains
         real(dp), intent(in) :: x, y
         real(dp) :: value
 
-        if (abs(y) < 1000.0_dp .and. abs(y - anint(y)) <= 0.0_dp) then
+        if (abs(y) < 1000.0_dp .and. is_zero(y - anint(y))) then
             value = x**nint(y)
         else
             value = x**y
@@ -160,7 +161,7 @@ contains
         sign_of = 0.0_dp
         sign_of(expression%count) = 1.0_dp
         do i = expression%count, 1, -1
-            if (abs(sign_of(i)) <= 0.0_dp) cycle
+            if (is_zero(sign_of(i))) cycle
             associate (node => expression%nodes(i))
                 select case (node%kind)
                 case (kind_sum)
@@ -179,7 +180,7 @@ contains
                 end select
             end associate
         end do
-        nodes = pack([(i, i=1, expression%count)], abs(sign_of) > 0.0_dp)
+        nodes = pack([(i, i=1, expression%count)], is_nonzero(sign_of))
         signs = sign_of(nodes)
     end subroutine summands
 end module lagrangia_sampled_formula

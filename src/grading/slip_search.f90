@@ -8,6 +8,7 @@ module lagrangia_slip_search
                                     kind_power, kind_quotient, kind_symbol, operator(/)
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
                                       role_parameter, role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
@@ -175,7 +176,7 @@ contains
                             if (.not. (exchangeable(samples%role(node%which), samples%role(k)) &
                                        .or. (samples%role(node%which) == role_parameter .and. &
                                              any(samples%place == k)))) cycle
-                            if (is_zero(k)) cycle
+                            if (is_always_zero(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
                                    "'"//context(expression, samples, i)
@@ -223,7 +224,7 @@ contains
                 do b = 2, size(samples%role)
                     if (a == b .or. samples%role(a) /= samples%role(b)) cycle
                     if (samples%role(a) >= role_known) exit
-                    if (is_zero(a) .or. is_zero(b)) cycle
+                    if (is_always_zero(a) .or. is_always_zero(b)) cycle
                     changed = values
                     elsewhere = samples%elsewhere
                     call throughout(changed, a, b)
@@ -318,7 +319,7 @@ contains
                 if (expression%nodes(i)%kind == kind_number .neqv. n <= expression%count) cycle
                 if (expression%nodes(i)%kind == kind_number) then
                     number = expression%nodes(i)%number%value
-                    if (abs(number) <= 0.0_dp) cycle
+                    if (is_zero(number)) cycle
                     if (mends(change_t(change_factor, i, 0, 1.0_dp/number))) then
                         text = "the number "//node_text(i)//" must be 1"// &
                                context(expression, samples, i)
@@ -351,7 +352,7 @@ contains
                     if (any(nodes%kind == kind_power .and. nodes%right == i)) cycle  ! exponents
                 end associate
                 do k = 1, size(samples%role)
-                    if (samples%role(k) > role_parameter .or. is_zero(k)) cycle
+                    if (samples%role(k) > role_parameter .or. is_always_zero(k)) cycle
                     if (expression%depends_on(k) .neqv. n <= expression%count) cycle
                     if (mends(change_t(change_multiplied, i, k))) then
                         text = node_text(i)//" lacks the factor '"// &
@@ -382,13 +383,13 @@ contains
             end do
         end subroutine try_squares
 
-        function is_zero(k) result(yes)
+        function is_always_zero(k) result(yes)
             !! A parameter that nobody named and that is zero: with it any term goes away.
             integer, intent(in) :: k
             logical :: yes
 
-            yes = all(abs(samples%values(:, k)) <= 0.0_dp)
-        end function is_zero
+            yes = all(is_zero(samples%values(:, k)))
+        end function is_always_zero
 
         function must_be(i, other) result(text)
             integer, intent(in) :: i

@@ -6,6 +6,7 @@ module lagrangia_small_energies
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: draws, role_acceleration, role_known, samples_t, states
     use lagrangia_sampled_formula, only: change_t, evaluate_nodes, summands
     use lagrangia_written_out, only: energy_formulas, energy_places, written_out
@@ -48,7 +49,7 @@ contains
         do draw = 1, draws
             first = (draw - 1)*states + 1
             last = draw*states
-            yes = yes .and. all(ieee_is_finite(results(first:last, n)))
+            yes = yes .and. all_finite(results(first:last, n))
             if (yes) yes = maxval(results(first:last, n)) - minval(results(first:last, n)) <= &
                            1e-8_dp*maxval(abs(results(first:last, n))) + &
                            1e-12_dp*maxval(sizes(first:last, n))
@@ -97,7 +98,7 @@ contains
         agreement%yes = .true.
         agreement%same_motion = is_energy(left, samples) .and. left%nodes(1)%which == places(1)
         do draw = 1, draws
-            if (.not. all(ieee_is_finite(at(:, draw)))) cycle
+            if (.not. all_finite(at(:, draw))) cycle
             call expand()
             if (.not. ieee_is_finite(scale)) then
                 agreement%judged = .false.
@@ -146,7 +147,7 @@ contains
                     call put_series(difference, i, j, dot_product(signs, term%re), &
                                     dot_product(signs, term%d1), dot_product(signs, term%d12))
                     scale = max(scale, sum(abs(term%re)), sum(abs(term%d1)), sum(abs(term%d12)))
-                    if (.not. all(ieee_is_finite(term%d12))) scale = ieee_value(1.0_dp, &
+                    if (.not. all_finite(term%d12)) scale = ieee_value(1.0_dp, &
                                                                                 ieee_quiet_nan)
                     if (.not. ieee_is_finite(scale)) return
                 end do
@@ -281,7 +282,7 @@ contains
         do draw = 1, draws
             x = samples%values((draw - 1)*states + 1, :)
             x(2:1 + 2*samples%ndof) = 0.0_dp
-            if (all(ieee_is_finite(samples%equilibrium(:, draw)))) x(2:1 + samples%ndof) = &
+            if (all_finite(samples%equilibrium(:, draw))) x(2:1 + samples%ndof) = &
                 samples%equilibrium(:, draw)
             call energies%evaluate(x, e)
             do k = 1, 4

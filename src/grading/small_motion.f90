@@ -7,6 +7,7 @@ module lagrangia_small_motion
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_mode_samples, only: put_places
+    use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: draws, role_acceleration, role_coordinate, role_frequency, &
                                       role_parameter, role_time, role_velocity, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -150,7 +151,7 @@ contains
             forces = -matmul(stiffness(:, :, draw), shown(row, 2:1 + n)) &
                      - matmul(turning(:, :, draw), shown(row, 2 + n:1 + 2*n))
             a = ieee_value(1.0_dp, ieee_quiet_nan)
-            if (.not. all(ieee_is_finite(forces))) then
+            if (.not. all_finite(forces)) then
                 shown(row, samples%first_acceleration:samples%first_acceleration + n - 1) = a
                 cycle
             end if

@@ -10,6 +10,7 @@ module lagrangia_solved_constraints
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_sample_names, only: role_coordinate, role_parameter, role_velocity, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_substitution, only: substituted
@@ -64,7 +65,7 @@ contains
         allocate (values(1, place), nodes(1, slope%count))
         values = 0.0_dp
         call evaluate_nodes(slope, values, nodes)
-        if (abs(abs(nodes(1, slope%count)) - 1.0_dp) > 0.0_dp) return
+        if (is_nonzero(abs(nodes(1, slope%count)) - 1.0_dp)) return
         zero(1) = whole(0)
         rest = substituted(rest, [place], zero)
         if (nodes(1, slope%count) > 0.0_dp) rest = zero(1) - rest

@@ -1,6 +1,5 @@
 module lagrangia_stated_equilibria
     !! `theta_eq = pi`, and `theta = pi + u`: an equilibrium beside those that `modes` shows.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: derivative
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t
@@ -8,6 +7,7 @@ module lagrangia_stated_equilibria
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
@@ -74,7 +74,7 @@ contains
         type(samples_t), intent(in) :: samples
         logical :: yes
 
-        yes = any(abs(samples%other_equilibrium - samples%equilibrium) > 0.0_dp)
+        yes = any(is_nonzero(samples%other_equilibrium - samples%equilibrium))
     end function other_is_known
 
     subroutine put_root(residual, samples, found)
@@ -126,9 +126,9 @@ contains
             values = samples%values
             values(:, 1 + coordinate) = 0.0_dp
             slopes = values_of(slope, values)
-            if (any(abs(slopes) <= 0.0_dp)) return
+            if (any(is_zero(slopes))) return
             there = -values_of(meaning, values)/slopes
-            if (all(abs(there) <= 0.0_dp)) return
+            if (all(is_zero(there))) return
             call find_rest(coordinate, there, samples, values, found)
             if (found) call keep(values, instead, samples)
             return
@@ -184,7 +184,7 @@ contains
             sizes = maxval(abs(values(:, 2:n + 1)), 2)
             if (all(maxval(abs(changes), 2) <= 4*epsilon(1.0_dp)*sizes)) exit
         end do
-        found = all(ieee_is_finite(values(:, 2:n + 1)))
+        found = all_finite(values(:, 2:n + 1))
         do j = 1, n
             if (.not. found) return
             if (force(j)%count == 0) cycle
@@ -256,7 +256,7 @@ contains
                 samples%omega2(draw, 2) = k(draw, 1, 1)/m(draw, 1, 1)
                 if (samples%decay > 0) samples%omega2(draw, 2) = samples%omega2(draw, 2) - &
                     (b(draw, 1, 1)/(2.0_dp*m(draw, 1, 1)))**2
-            else if (all(abs(b(draw, :, :)) <= 0.0_dp)) then
+            else if (all(is_zero(b(draw, :, :)))) then
                 call normal_modes(k(draw, :, :), m(draw, :, :), omega2, modes, error)
                 if (.not. allocated(error)) samples%omega2(draw, n + 1:) = omega2
             end if

@@ -7,6 +7,7 @@ module lagrangia_statement_forms
                                     kind_quotient, kind_symbol, operator(**), operator(-), &
                                     operator(/), symbol, whole
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
                                       role_velocity, samples_t
     use lagrangia_slip_search, only: holds
@@ -111,7 +112,7 @@ contains
         type(samples_t), intent(in) :: samples
         logical :: yes
 
-        yes = any(abs(samples%omega2) > 0.0_dp) .and. all(maxval(samples%omega2, 1) - &
+        yes = any(is_nonzero(samples%omega2)) .and. all(maxval(samples%omega2, 1) - &
             minval(samples%omega2, 1) <= 1e-12_dp*maxval(abs(samples%omega2)))
     end function is_fixed_frequency
 
@@ -215,7 +216,7 @@ contains
 
         letter = samples%symbols%find("T")
         if (letter == 0) return
-        if (tensions(samples) > 0 .and. .not. any(abs(samples%omega2) > 0.0_dp)) letter = 0
+        if (tensions(samples) > 0 .and. .not. any(is_nonzero(samples%omega2))) letter = 0
         if (letter == 0) return  ! nothing oscillates
         if (samples%role(letter) /= role_known .or. .not. formula%depends_on(letter)) letter = 0
         do k = 1, size(samples%role)

@@ -1,7 +1,7 @@
 module lagrangia_supposed_lagrangian
     !! What the motion would be if L were a student's formula, right or wrong: the same states, and
     !! the accelerations, momenta, energies and frequencies that follow from it.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_followed_letters, only: follow_letters
@@ -10,6 +10,7 @@ module lagrangia_supposed_lagrangian
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_lapack_eigen, only: dgeev
+    use lagrangia_number_class, only: all_finite
     use lagrangia_same_motion, only: lagrange_terms
     use lagrangia_sample_names, only: draws, role_known, samples_t, states
     implicit none (type, external)
@@ -51,7 +52,7 @@ contains
                     mass(:, j) = rate - at_rest
                 end do
                 call solve_linear(mass, slope + forces - at_rest, a, error)
-                possible = .not. allocated(error) .and. all(ieee_is_finite(a))
+                possible = .not. allocated(error) .and. all_finite(a)
                 if (.not. possible) return
                 samples%mass(:, :, row) = mass
                 rate = at_rest + matmul(mass, a)
@@ -109,7 +110,7 @@ contains
 
         n = samples%ndof
         do draw = 1, draws
-            if (.not. all(ieee_is_finite(samples%equilibrium(:, draw)))) cycle
+            if (.not. all_finite(samples%equilibrium(:, draw))) cycle
             do i = 1, n
                 do j = 1, n
                     call at_equilibrium(inputs)

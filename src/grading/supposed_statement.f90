@@ -2,7 +2,7 @@ module lagrangia_supposed_statement
     !! What the values would be if a student's statement were true in the place of something that
     !! is: of an equation of motion, of a derivative of L, or of a known value. All other truths
     !! stay. Who goes on from a wrong line keeps all but one of them.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_followed_letters, only: follow_letters
@@ -10,6 +10,7 @@ module lagrangia_supposed_statement
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_sample_names, only: draws, role_known, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_supposed_lagrangian, only: damped_rates, forget_quantities, place_letters, &
@@ -102,7 +103,7 @@ contains
             call evaluate(x(1), f(1))
             do i = 1, 50  ! a secant each
                 call evaluate(x(2), f(2))
-                possible = abs(f(2)) <= 0.0_dp
+                possible = is_zero(f(2))
                 if (possible) exit
                 next = x(2) - f(2)*(x(2) - x(1))/(f(2) - f(1))
                 possible = abs(next - x(2)) <= equal*abs(next)
@@ -147,7 +148,7 @@ contains
         call residuals(s, f, scale)
         ok = .false.
         do i = 1, steps
-            if (.not. all(ieee_is_finite(f))) exit
+            if (.not. all_finite(f)) exit
             ok = i > 1 .and. all(abs(f) <= equal*scale)
             if (ok) exit
             do k = 1, m
@@ -157,7 +158,7 @@ contains
                 slopes(:, k) = moved - f
                 where (abs(slopes(:, k)) <= rounding*scale_there) slopes(:, k) = 0.0_dp
             end do
-            if (.not. all(ieee_is_finite(slopes))) exit
+            if (.not. all_finite(slopes)) exit
             call solve_linear(slopes, -f, step, error)
             if (allocated(error)) exit
             s = s + step
@@ -239,7 +240,7 @@ contains
         mass = samples%inertia(:, :, draw)
         stiffness = samples%stiffness(:, :, draw)
         slope = 0.0_dp
-        known = all(ieee_is_finite(samples%equilibrium(:, draw)))
+        known = all_finite(samples%equilibrium(:, draw))
         do k = 1, size(suppositions)
             j = suppositions(k)%which
             known = known .and. suppositions(k)%kind == no_equation

@@ -7,6 +7,7 @@ module lagrangia_term_search
     use lagrangia_formula_text, only: formula_text, typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
+    use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_sample_names, only: draws, role_known, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_text, only: to_text
@@ -160,7 +161,7 @@ contains
             integer, intent(in) :: at
             integer :: j
 
-            is_alone = all([(j == at .or. all(.not. abs(results(:, nodes(j))) > 0.0_dp), &
+            is_alone = all([(j == at .or. all(.not. is_nonzero(results(:, nodes(j)))), &
                              j=1, size(nodes))])
         end function is_alone
 
@@ -337,7 +338,7 @@ contains
         logical :: yes
 
         yes = .false.
-        if (.not. all(ieee_is_finite(x))) return
+        if (.not. all_finite(x)) return
         yes = maxval(x) - minval(x) <= equal*max(maxval(abs(x)), 1e-3_dp)
     end function is_constant
 

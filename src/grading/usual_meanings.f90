@@ -8,6 +8,7 @@ module lagrangia_usual_meanings
                                     operator(+), operator(-), operator(/), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_sample_names, only: axes, samples_t, states, usual_t
     use lagrangia_sampled_formula, only: summands
     use lagrangia_slip_search, only: holds
@@ -265,7 +266,7 @@ contains
         k = findloc([(lagrangian%depends_on(1 + i), i=1, samples%ndof)], .true., 1)
         do i = 1, samples%ndof
             if (i == k) cycle
-            if (any(abs(samples%mass(i, k, :)) > 0.0_dp)) return
+            if (any(is_nonzero(samples%mass(i, k, :)))) return
             ! a force beside L
             if (any(abs(samples%values(:, samples%rate(samples%symbols%find("p_"// &
                 trim(samples%symbols%names(1 + i)))))) > 1e-9_dp)) return

@@ -5,6 +5,7 @@ module lagrangia_verdict
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_text, only: typed_name
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     use lagrangia_number_text, only: scientific
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -132,7 +133,7 @@ contains
         text = trim(text)
         if (.not. ieee_is_finite(value)) return
         text = "0"
-        if (abs(value) <= 0.0_dp) return
+        if (is_zero(value)) return
         text = scientific(value, n)
         if (.not. (abs(value) > 1e-4_dp .and. abs(value) < 1e6_dp)) return
         digits = n - 1 - floor(log10(abs(value)))

@@ -84,8 +84,8 @@ contains
             !! A number 0 on one side.
             integer, intent(in) :: node
 
-            is_zero = expression%nodes(node)%kind == kind_number
-            if (is_zero) is_zero = abs(expression%nodes(node)%number%value) <= 0.0_dp
+            is_zero = expression%nodes(node)%kind == kind_number .and. &
+                      expression%nodes(node)%number%is_zero()
         end function is_zero
 
         subroutine evaluate_terms(at, of)

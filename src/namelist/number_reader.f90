@@ -8,6 +8,7 @@ module lagrangia_number_reader
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
     use lagrangia_characters, only: plainly, unlike
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_zero
     use lagrangia_text, only: lower, to_text
     implicit none (type, external)
     private
@@ -55,7 +56,7 @@ contains
         number = value_of(token)
         if (.not. ieee_is_finite(number)) then
             problem = "is too large for a double (at most 1.79769e308)"
-        else if (abs(number) <= 0.0_dp .and. scan(token(:mantissa), digits(2:)) > 0) then
+        else if (is_zero(number) .and. scan(token(:mantissa), digits(2:)) > 0) then
             problem = "is too small for a double (at least 4.94066e-324, or 0)"
         end if
     end subroutine read_number

@@ -5,6 +5,7 @@ module lagrangia_eigen
     use lagrangia_jacobi, only: refine_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack_eigen, only: dgeev, dgejsv, dsygv, dsygvd
+    use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -100,7 +101,7 @@ contains
             call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
                       status_library)
         end if
-        if (.not. (allocated(error) .or. all(ieee_is_finite(omega2)))) call out_of_range(error)
+        if (.not. (allocated(error) .or. all_finite(omega2))) call out_of_range(error)
         do i = 1, n
             if (allocated(error)) exit
             if (factor(i, i)**2 <= 4*n*epsilon(1.0_dp)*inertia(i, i)) call fail(error, &
@@ -165,7 +166,7 @@ contains
         end if
         do j = 1, size(a, 2)
             do i = 1, j
-                if (abs(a(i, j) - a(j, i)) <= 0.0_dp) cycle  ! finite, too
+                if (is_zero(a(i, j) - a(j, i))) cycle  ! finite, too
                 if (.not. (ieee_is_finite(a(i, j)) .and. ieee_is_finite(a(j, i)))) then
                     call fail(error, name//"("//to_text(i)//", "//to_text(j)//") is not finite")
                 else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max( &
@@ -216,7 +217,7 @@ contains
         allocate (product(n, rank), sigma(rank), u(n, n), v(rank, rank), iwork(n + 3*n))
         allocate (work(max(7, 6*n + 2*n*n + 2*n + n)))
         product = transpose(matmul(root, inverse))
-        if (.not. all(ieee_is_finite(product))) then
+        if (.not. all_finite(product)) then
             call fail(error, "the factors of K and M are not finite", status_library)
             return
         end if
@@ -237,7 +238,7 @@ contains
         do j = rank + 1, n
             modes(:, n + 1 - j) = matmul(inverse, u(:, j))
         end do
-        if (.not. (all(ieee_is_finite(omega2)) .and. all(ieee_is_finite(modes)))) then
+        if (.not. (all_finite(omega2) .and. all_finite(modes))) then
             call out_of_range(error)
             return
         end if

@@ -3,12 +3,12 @@ module lagrangia_gsl
     !!
     !! GSL's error handler would abort the program: it is switched off before the first call, and
     !! every status is checked.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, &
         c_funptr, c_int, c_loc, c_ptr
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_files, only: fortran_text
     use lagrangia_kinds, only: dp, this_part_needs_real64
+    use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private
@@ -120,7 +120,7 @@ contains
         root = 0.0_dp
         f_lower = f%value(lower)
         f_upper = f%value(upper)
-        if (.not. (all(ieee_is_finite([lower, upper, f_lower, f_upper])) .and. lower < upper)) then
+        if (.not. (all_finite([lower, upper, f_lower, f_upper]) .and. lower < upper)) then
             call fail(error, "root: two ends, in order, and finite values there are needed", &
                       status_numbers)
             return
@@ -146,7 +146,7 @@ contains
             from = gsl_root_fsolver_x_lower(solver)
             to = gsl_root_fsolver_x_upper(solver)
             if (to - from <= 2.0_dp*epsilon(root)*max(abs(from), abs(to))) exit
-            if (abs(f%value(root)) <= 0.0_dp) exit
+            if (is_zero(f%value(root))) exit
         end do
         call gsl_root_fsolver_free(solver)
         if (status /= 0) then

@@ -1,9 +1,9 @@
 module lagrangia_gyroscopic
     !! Small oscillations with gyroscopic forces: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_eigen, only: eigenpairs, norm1, normal_modes
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -51,7 +51,7 @@ contains
         allocate (lambda(n), modes(n, n))
         fast = n
         call solve_first_order(omega2, coupling, .false., lambda, modes, error)
-        if (.not. allocated(error) .and. all(abs(omega2) > 0.0_dp)) then
+        if (.not. allocated(error) .and. all(is_nonzero(omega2))) then
             call solve_first_order(omega2, coupling, .true., other, other_modes, error)
             if (.not. allocated(error)) fast = fast_modes(abs(lambda))
             lambda(fast + 1:) = other(fast + 1:)
@@ -88,7 +88,7 @@ contains
         if (any(shape(g) /= n)) then
             call fail(error, "G is "//to_text(size(g, 1))//" by "//to_text(size(g, 2))// &
                       ", K and M have "//to_text(n)//" rows")
-        else if (.not. all(ieee_is_finite(g))) then
+        else if (.not. all_finite(g)) then
             call fail(error, "G is not finite")
         else if (any(abs(g + transpose(g)) > 8.0_dp*epsilon(g)*maxval(abs(g)))) then
             call fail(error, "G is not antisymmetric")
@@ -169,7 +169,7 @@ contains
 
         left = .true.
         upper = aimag(lambda) > 0.0_dp .or. &
-                (abs(aimag(lambda)) <= 0.0_dp .and. real(lambda) > 0.0_dp)
+                (is_zero(aimag(lambda)) .and. real(lambda) > 0.0_dp)
         do k = 1, size(chosen)
             j = maxloc(abs(lambda), 1, left .and. upper)
             if (j == 0) j = maxloc(abs(lambda), 1, left)
@@ -206,7 +206,7 @@ contains
         k = sum(omega2*(real(q)**2 + aimag(q)**2))/m
         large = 0.5_dp*(c + sign(sqrt(max(0.0_dp, c**2 + 4.0_dp*k)), c))
         other = 0.0_dp
-        if (abs(large) > 0.0_dp) other = -k/large
+        if (is_nonzero(large)) other = -k/large
         if (abs(other - aimag(lambda)) < abs(large - aimag(lambda))) large = other
         lambda = cmplx(0.0_dp, abs(large), dp)
     end subroutine refine

@@ -2,6 +2,7 @@ module lagrangia_jacobi
     !! Jacobi's rotations for \(K u = \omega^2 M u\): they keep the small \(\omega^2\) of graded
     !! matrices, of which LAPACK's `dsygv` loses what is below the rounding of the largest.
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
     public :: refine_modes, zero_modes
@@ -87,7 +88,7 @@ contains
         x = half + sign(sqrt(max(0.0_dp, half**2 + of_p*of_q)), half)
         alpha = 0.0_dp
         beta = m(p, q)/m(q, q)
-        if (abs(x) > 0.0_dp) then
+        if (is_nonzero(x)) then
             alpha = of_q/x
             beta = of_p/x
         end if

@@ -1,6 +1,7 @@
 module lagrangia_laguerre
     !! Zeros of Laguerre's polynomials: the frequencies of a chain that hangs.
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     implicit none (type, external)
     private
     public :: laguerre_zeros
@@ -64,7 +65,7 @@ contains
         s = -x
         do i = 1, n
             last = i + s
-            if (abs(last) <= 0.0_dp) last = -tiny(last)
+            if (is_zero(last)) last = -tiny(last)
             if (last < 0.0_dp) below = below + 1
             s = s*i/last - x
         end do

@@ -1,9 +1,9 @@
 module lagrangia_lapack
     !! LAPACK's drivers with our errors, the caller's arrays untouched: linear systems, rank, least
     !! squares, and tridiagonal matrices. Its eigenvalues: `lagrangia_eigen`.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp, this_part_needs_real64
+    use lagrangia_number_class, only: all_finite
     implicit none (type, external)
     private
     public :: count_negative, least_squares, lowest_mode, matrix_rank, smallest_pivot, solve_band, &
@@ -123,7 +123,7 @@ contains
         x = 0.0_dp
         n = size(rhs)
         call check("linear system", "coefficient", size(x) == n .and. all(shape(matrix) == n), &
-                   all(ieee_is_finite(matrix)) .and. all(ieee_is_finite(rhs)), error)
+                   all_finite(matrix) .and. all_finite(rhs), error)
         if (allocated(error) .or. n == 0) return
         a = matrix
         b(:, 1) = rhs
@@ -133,7 +133,7 @@ contains
             call fail(error, "linear system: LAPACK refused an argument of dgesvx", status_library)
         else if (info > 0) then
             call fail(error, "linear system: the matrix is singular", status_library)
-        else if (.not. all(ieee_is_finite(solution))) then
+        else if (.not. all_finite(solution)) then
             call fail(error, "linear system: the solution overflows", status_library)
         else
             x = solution(:, 1)
@@ -154,7 +154,7 @@ contains
         rank = 0
         m = size(matrix, 1)
         n = size(matrix, 2)
-        call check("rank", "element", .true., all(ieee_is_finite(matrix)), error)
+        call check("rank", "element", .true., all_finite(matrix), error)
         if (allocated(error) .or. min(m, n) == 0) return
         a = matrix
         call dgesvd("n", "n", m, n, a, m, values, u, 1, vt, 1, work, size(work), info)
@@ -178,13 +178,13 @@ contains
         x = 0.0_dp
         call check("least squares", "coefficient", &
                    all(shape(a) == [size(c), size(x)]) .and. size(x) <= size(c), &
-                   all(ieee_is_finite(a)) .and. all(ieee_is_finite(c)), error)
+                   all_finite(a) .and. all_finite(c), error)
         if (allocated(error) .or. size(x) == 0) return
         a_work = a
         c_work(:, 1) = c
         call dgels("N", size(c), size(x), 1, a_work, size(c), c_work, size(c), work, size(work), &
                    info)
-        if (info /= 0 .or. .not. all(ieee_is_finite(c_work))) then
+        if (info /= 0 .or. .not. all_finite(c_work)) then
             call fail(error, "least squares: the columns depend on each other", status_library)
         else
             x = c_work(:size(x), 1)
@@ -204,7 +204,7 @@ contains
         n = size(matrix, 1)
         pivot = 0.0_dp
         do i = 1, n
-            if (.not. (matrix(i, i) > 0.0_dp .and. all(ieee_is_finite(matrix(:, i))))) return
+            if (.not. (matrix(i, i) > 0.0_dp .and. all_finite(matrix(:, i)))) return
         end do
         do j = 1, n
             do i = 1, n
@@ -235,7 +235,7 @@ contains
         width = size(band, 1)/2
         call check("band system", "coefficient", &
                    size(x) == n .and. all(shape(band) == [2*width + 1, n]), &
-                   all(ieee_is_finite(band)) .and. all(ieee_is_finite(rhs)), error)
+                   all_finite(band) .and. all_finite(rhs), error)
         if (allocated(error) .or. n == 0) return
         a(:width, :) = 0.0_dp
         a(width + 1:, :) = band
@@ -266,7 +266,7 @@ contains
         negative = 0
         n = size(diagonal)
         call check("tridiagonal matrix", "element", size(off) == max(0, n - 1), &
-                   all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)), error)
+                   all_finite(diagonal) .and. all_finite(off), error)
         if (allocated(error) .or. n == 0) return
         lowest = -2.0_dp*(maxval(abs(diagonal)) + 2.0_dp*maxval([0.0_dp, abs(off)]))
         if (lowest >= 0.0_dp) return
@@ -296,7 +296,7 @@ contains
         n = size(diagonal)
         call check("tridiagonal matrix", "element", &
                    n > 0 .and. size(off) == n - 1 .and. size(vector) == n, &
-                   all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)), error)
+                   all_finite(diagonal) .and. all_finite(off), error)
         if (allocated(error)) return
         d = diagonal
         e = 0.0_dp

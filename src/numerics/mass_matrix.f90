@@ -1,10 +1,10 @@
 module lagrangia_mass_matrix
     !! The mass matrix \(M = \partial^2L/\partial\dot q\,\partial\dot q\): whether it is positive
     !! definite.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -23,7 +23,7 @@ contains
         logical :: negative
         integer :: i
 
-        if (.not. all(ieee_is_finite(mass))) then
+        if (.not. all_finite(mass)) then
             call fail(error, "the mass matrix is not finite", status_library)
             return
         end if

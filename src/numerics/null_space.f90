@@ -1,8 +1,8 @@
 module lagrangia_null_space
     !! The vectors that a matrix takes to zero, by LAPACK's singular value decomposition.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: all_finite
     implicit none (type, external)
     private
     public :: null_space
@@ -40,7 +40,7 @@ contains
         allocate (basis(n, 0))
         if (m < n .or. n == 0) then
             call fail(error, "null space: a matrix needs as many rows as columns", status_library)
-        else if (.not. all(ieee_is_finite(matrix))) then
+        else if (.not. all_finite(matrix)) then
             call fail(error, "null space: an element is not a finite number", status_library)
         end if
         if (allocated(error)) return

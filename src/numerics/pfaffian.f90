@@ -11,6 +11,7 @@ module lagrangia_pfaffian
                                    operator(/)
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
+    use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
     public :: pfaffian_t
@@ -131,7 +132,7 @@ contains
         xx(size(xx))%d1 = 1.0_dp
         call self%forms(xx, a)
         call kernel(self, xx, free)
-        yes = any(abs(a(:, size(xx))%re) > 0.0_dp) .or. any(abs(free%d1) > noise)
+        yes = any(is_nonzero(a(:, size(xx))%re)) .or. any(abs(free%d1) > noise)
     end function moves
 
     pure subroutine on_the_free(self, x, da, terms)

@@ -6,6 +6,7 @@ module lagrangia_quadratic_eigen
     use lagrangia_gyroscopic, only: fast_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_number_class, only: is_nonzero, is_zero
     implicit none (type, external)
     private
     public :: quadratic_eigenvalues
@@ -124,7 +125,7 @@ contains
         if (.not. abs(change(n)) <= noise + 1e-6_dp*abs(lambda)) return
         if (.not. norm2(abs(change(:n - 1))) <= 1e-3_dp*norm2(abs(u))) return
         u = u + change(:n - 1)
-        if (abs(aimag(lambda)) <= 0.0_dp) change(n) = real(change(n))
+        if (is_zero(aimag(lambda))) change(n) = real(change(n))
         lambda = lambda + change(n)
     end subroutine improve
 
@@ -141,7 +142,7 @@ contains
         call form_of(mass, u, m, k_i)
         call form_of(damping, u, c, g)
         call form_of(stiffness, u, k, k_i)
-        if (abs(omega) > 0.0_dp) then
+        if (is_nonzero(omega)) then
             better = cmplx(-(c*omega + k_i)/(2.0_dp*m*omega + g), omega, dp)
         else
             better = lambda
@@ -153,7 +154,7 @@ contains
             end if
             roots = -0.5_dp*(c + sign(sqrt(roots(1)), c))
             roots(1) = roots(1)/m
-            if (abs(roots(2)) > 0.0_dp) roots(2) = k/roots(2)
+            if (is_nonzero(roots(2))) roots(2) = k/roots(2)
             better = roots(minloc(abs(roots - real(lambda)), 1))
         end if
         if (.not. abs(better - lambda) <= noise + 1e-6_dp*abs(lambda)) better = lambda

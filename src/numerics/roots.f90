@@ -8,6 +8,7 @@ module lagrangia_roots
     !! Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145.
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -49,10 +50,10 @@ contains
         fa = f%value(a)
         fb = f%value(b)
         root = a
-        if (abs(fa) <= 0.0_dp) return
+        if (is_zero(fa)) return
         side = sign(1.0_dp, fa)
-        if (abs(fb) <= 0.0_dp) root = b
-        if (abs(fb) <= 0.0_dp) return
+        if (is_zero(fb)) root = b
+        if (is_zero(fb)) return
         if (.not. side*fb < 0.0_dp) then
             call fail(error, "no change of sign between "//to_text(from)//" and "//to_text(to), &
                       status_numbers)
@@ -62,7 +63,7 @@ contains
         do i = 1, most
             x = a + share*(b - a)
             y = f%value(x)
-            if (abs(y) <= 0.0_dp) then
+            if (is_zero(y)) then
                 root = x
                 return
             end if
@@ -82,7 +83,7 @@ contains
             else
                 root = b
             end if
-            if (abs(nearest(a, b - a) - b) <= 0.0_dp) return
+            if (is_zero(nearest(a, b - a) - b)) return
             least = min(0.5_dp, spacing(max(abs(a), abs(b)))/abs(b - a))
             share = 0.5_dp
             if (quadratic_is_safe()) share = fa/(fb - fa)*fc/(fb - fc) &

@@ -10,6 +10,7 @@ module lagrangia_equilibrium
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_magnitude, only: magnitude
+    use lagrangia_number_class, only: is_zero
     use lagrangia_system, only: system_t
     use lagrangia_tangent_space, only: find_tangent, tangent_t, within
     use lagrangia_text, only: to_text
@@ -40,7 +41,7 @@ contains
         usual = sizes_of_places(d)
         start = q
         f = force_at_rest(system, q)
-        if (all(abs(f) <= 0.0_dp) .and. system%constraints == 0) return
+        if (all(is_zero(f)) .and. system%constraints == 0) return
         call approach(system, usual, q, found)
         if (.not. (found .or. system%nonconservative .or. system%constraints > 0)) then
             q = start

@@ -18,6 +18,7 @@ module lagrangia_small_oscillations
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
                                       normal_modes_t, put_labels
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_resources, only: check_memory
     use lagrangia_system, only: system_t
     use lagrangia_tangent_space, only: check_integrable, find_tangent, tangent_t, within
@@ -150,7 +151,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         integer :: i
 
-        if (any(abs(modes%gyroscopic) > 0.0_dp)) then
+        if (any(is_nonzero(modes%gyroscopic))) then
             call solve_gyroscopic(modes, error)
         else if (allocated(modes%analytic%root)) then
             modes%method = "dgejsv on the factors of K and M"
@@ -222,7 +223,7 @@ contains
         l = system%lagrangian(hyperdual_t(), qq, vv)
         if (.not. ieee_is_finite(l%re)) then
             call refuse_start(system, d, "L", start, wanted, error)
-        else if (.not. all(ieee_is_finite(force_at_rest(system, start)))) then
+        else if (.not. all_finite(force_at_rest(system, start))) then
             call refuse_start(system, d, "a force", start, wanted, error)
         end if
     end subroutine check_system
@@ -379,7 +380,7 @@ contains
                 free = free - 1
             end do
         else if (allocated(modes%analytic%root)) then
-            vanishes = abs(modes%omega2) <= 0.0_dp
+            vanishes = is_zero(modes%omega2)
         else
             vanishes = zero_modes(modes%stiffness, modes%shapes)
         end if

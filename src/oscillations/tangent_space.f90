@@ -18,6 +18,7 @@ module lagrangia_tangent_space
     use lagrangia_lapack, only: solve_linear
     use lagrangia_mass_matrix, only: list_of
     use lagrangia_null_space, only: null_space
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -60,7 +61,7 @@ contains
             qq(i)%d1 = 0.0_dp
         end do
         tangent%rows = rows%re
-        if (any(abs(rows%d2) > 0.0_dp) .or. any(abs(drift%re) > 0.0_dp)) then
+        if (any(is_nonzero(rows%d2)) .or. any(is_nonzero(drift%re))) then
             call fail(error, "a constraint contains the time: there is no equilibrium to "// &
                       "oscillate about")
             return

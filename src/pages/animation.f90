@@ -11,6 +11,7 @@ module lagrangia_animation
     use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair, &
                               json_string
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_zero
     use lagrangia_plot_words, only: unicode_text
     use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: run_plan_t
@@ -141,7 +142,7 @@ contains
         facts = json_element(json_string(method))
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
-                if (all(abs(p%value(:p%count)) <= 0.0_dp)) cycle
+                if (all(is_zero(p%value(:p%count)))) cycle
                 values = ""
                 do k = 1, p%count
                     values = values//" "//to_text(p%value(k))

@@ -8,6 +8,7 @@ module lagrangia_frames
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: exact, workhorse
     use lagrangia_named_values, only: motion_state_t, path
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
@@ -203,7 +204,7 @@ contains
         if (window > patience*factor) factor = max(factor, min(window/patience, &
                                                                2.0_dp*fast/max(omega, 1e-30_dp)))
         if (window < glance*factor) factor = window/(1.25_dp*glance)
-        if (abs(factor - 1.0_dp) > 0.0_dp) factor = round_factor(factor)
+        if (is_nonzero(factor - 1.0_dp)) factor = round_factor(factor)
     end function film_speed
 
     pure function round_factor(x) result(nice)

@@ -16,12 +16,11 @@ module lagrangia_files
 
     integer, parameter :: most_bytes = 1048576  !! of a file that `read_whole_file` reads
 
-    integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
+    integer, parameter :: e_missing = 2       !! ENOENT; these are the same on every Unix
     integer, parameter :: e_input_output = 5  !! EIO
-    integer, parameter :: no_entry = 2        !! ENOENT
-    integer, parameter :: no_folder = 20      !! ENOTDIR
     integer, parameter :: e_bad_unit = 9      !! EBADF
     integer, parameter :: e_exists = 17       !! EEXIST
+    integer, parameter :: e_no_folder = 20    !! ENOTDIR
     integer, parameter :: e_invalid = 22      !! EINVAL
     integer, parameter :: e_broken_pipe = 32  !! EPIPE
 
@@ -78,7 +77,7 @@ contains
         call ask(path//c_null_char, values, status)
         facts%found = status == 0
         facts%status = int(status)
-        facts%barred = all(facts%status /= [0, no_entry, no_folder])
+        facts%barred = all(facts%status /= [0, e_missing, e_no_folder])
         if (.not. facts%found) return
         facts%device = values(1)
         facts%inode = values(2)

@@ -12,6 +12,7 @@ module lagrangia_cross_check
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_reference, only: reference_t
     use lagrangia_rounding_trial, only: lost_by_rounding, new_rounding_trial
     use lagrangia_scene, only: scene_t
@@ -151,7 +152,7 @@ contains
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         real(dp) :: a(system%ndof)
 
-        if (abs(dt) <= 0.0_dp) return
+        if (is_zero(dt)) return
         call system%accelerations(t, q, v, a)
         q = q + dt*v
         v = v + dt*a
@@ -177,7 +178,7 @@ contains
             this = events(i)%item%value(system, t, q, v)
             later = events(i)%item%value(system, t + h, q_later, v_later)
             rate = (later - this)/h
-            if (.not. abs(rate) > 0.0_dp) rate = tiny(rate)
+            if (.not. is_nonzero(rate)) rate = tiny(rate)
             if (abs(this*slope) > abs(value*rate)) cycle
             value = this
             slope = rate

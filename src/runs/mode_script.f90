@@ -3,6 +3,7 @@ module lagrangia_mode_script
     use lagrangia_description, only: description_t
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_plot_symbol, only: symbol
     use lagrangia_plot_words, only: text_label
@@ -168,7 +169,7 @@ contains
         character(:), allocatable :: words
 
         words = ""
-        if (which /= 0 .and. abs(apart) > 0.0_dp) words = " + "//to_text(which*apart)
+        if (which /= 0 .and. is_nonzero(apart)) words = " + "//to_text(which*apart)
     end function moved
 
     pure subroutine part_sides(rows, mode, axes, half, apart)

@@ -1,10 +1,10 @@
 module lagrangia_run
     !! The one loop: a system, an integrator, and whoever wants to see the states.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: all_finite
     use lagrangia_observer, only: check_observers, observer_box_t
     use lagrangia_state_check, only: blame_mass_matrix, check_start
     use lagrangia_system, only: system_t
@@ -123,7 +123,7 @@ contains
             call integrator%start(system, grid%t0 + known*grid%dt, q, v)
             do while (known < done)
                 call integrator%advance(system, grid%t0, grid%dt, known, 1_i8, q, v)
-                if (.not. all(ieee_is_finite([q, v]))) exit
+                if (.not. all_finite([q, v])) exit
                 known = known + 1
                 q_known = q
                 v_known = v

@@ -12,6 +12,7 @@ module lagrangia_state_check
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_magnitude, only: magnitude
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_number_class, only: all_finite
     use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
@@ -32,7 +33,7 @@ contains
 
         call check_state(system, q, v, error)
         if (allocated(error)) return
-        if (.not. all(ieee_is_finite([t, q, v]))) return  ! the run says so
+        if (.not. all_finite([t, q, v])) return  ! the run says so
         select type (system)
         class is (lagrangian_system_t)
             call check_lagrangian(system, t, q, v, error)
@@ -60,11 +61,11 @@ contains
 
         select type (system)
         class is (lagrangian_system_t)
-            if (.not. all(ieee_is_finite([t, h, q, v]))) return
+            if (.not. all_finite([t, h, q, v])) return
             do k = 0, ahead*places
                 s = k*h/places
                 call expand_lagrangian(system, t + s, q + s*v, v, terms)
-                if (.not. all(ieee_is_finite(terms%mass))) cycle
+                if (.not. all_finite(terms%mass)) cycle
                 call check_mass_matrix(terms%mass, cause)
                 if (.not. allocated(cause)) cycle
                 error%message = error%message//"; at t = "//to_text(t + s)//", q = "// &
@@ -96,12 +97,12 @@ contains
         call expand_lagrangian(system, t, q, v, terms)
         if (.not. ieee_is_finite(terms%l)) then
             call fail(error, "the Lagrangian is not a finite number", status_numbers)
-        else if (.not. all(ieee_is_finite([terms%dl_dq, terms%dl_dv, terms%force]))) then
+        else if (.not. all_finite([terms%dl_dq, terms%dl_dv, terms%force])) then
             call fail(error, "a derivative of the Lagrangian is not finite", status_numbers)
         end if
         if (allocated(error)) return
         call system%accelerations(t, q, v, a)
-        if (.not. all(ieee_is_finite(a))) call check_mass_matrix(terms%mass, error)
+        if (.not. all_finite(a)) call check_mass_matrix(terms%mass, error)
         if (allocated(error)) return
         select type (system)
         class is (written_system_t)

@@ -4,6 +4,7 @@ module lagrangia_step_warning
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: new_integrator
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_number_text, only: rounded
     use lagrangia_scene, only: scene_t
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, likely_equilibrium, modes_t
@@ -40,7 +41,7 @@ contains
         end if
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
         if (allocated(error)) return
-        if (method%reversible .and. any(abs(modes%gyroscopic) > 0.0_dp)) return
+        if (method%reversible .and. any(is_nonzero(modes%gyroscopic))) return
         omega = sqrt(maxval([0.0_dp, pack(modes%omega2, modes%label == is_oscillation)]))
         if (.not. scene%dt*omega > method%step_limit) return
         text = "dt = "//to_text(scene%dt)//" s exceeds the step limit "// &
@@ -68,7 +69,7 @@ contains
         v = 0.0_dp
         row = 0.0_dp
         call system%accelerations(0.0_dp, q, v, at_rest)
-        if (system%time_dependent .or. any(abs(at_rest) > 0.0_dp)) return
+        if (system%time_dependent .or. any(is_nonzero(at_rest))) return
         do k = 1, system%ndof
             here = q(k)
             q(k) = here + width
@@ -80,7 +81,7 @@ contains
             v(k) = width
             call system%accelerations(0.0_dp, q, v, above)
             v(k) = 0.0_dp
-            if (any(abs(above) > 0.0_dp)) return
+            if (any(is_nonzero(above))) return
         end do
         yes = margin*sqrt(maxval(row)) < fastest
     end function all_slower

@@ -1,6 +1,5 @@
 module lagrangia_trajectory_plan
     !! From a scene to the trajectory that is to be computed: its method, its times, its events.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: constraint_text, description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_events, only: column_event_t, contact_event_t, event_box_t, new_column_event, &
@@ -10,6 +9,7 @@ module lagrangia_trajectory_plan
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: auto, exact, new_adaptive, new_integrator, prepare_integrator, &
                                  workhorse
+    use lagrangia_number_class, only: all_finite
     use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
@@ -82,7 +82,7 @@ contains
             yes = reference%has_state
             if (.not. yes) return
             call reference%state_at(scene%t0 + scene%duration, q, v)
-            yes = all(ieee_is_finite(q)) .and. all(ieee_is_finite(v))
+            yes = all_finite(q) .and. all_finite(v)
         end function gives_states
     end subroutine choose_method
     subroutine plan_steps(scene, system, plan, error, closed_form)

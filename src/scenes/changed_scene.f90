@@ -2,6 +2,7 @@ module lagrangia_changed_scene
     !! A scene that the command line changes is another one: it has a title and files of its own,
     !! and what the file expects of the unchanged motion does not judge it.
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_scene, only: scene_t, sweep_group_t
     use lagrangia_text, only: join, lower, to_text, word_t
     implicit none (type, external)
@@ -96,7 +97,7 @@ contains
 
         if (listed(sweep%over) /= listed(file%over)) call add(axes, listed(sweep%over))
         if (listed(sweep%keep) /= listed(file%keep)) call add(axes, "keep="//listed(sweep%keep))
-        if (abs(sweep%after - file%after) > 0.0_dp) call add(changes, "after="//to_text( &
+        if (is_nonzero(sweep%after - file%after)) call add(changes, "after="//to_text( &
             sweep%after))
         if (sweep%strobe /= file%strobe) call add(changes, "strobe="//trim(sweep%strobe))
         if (sweep%section /= file%section) call add(changes, "section="//trim(sweep%section))

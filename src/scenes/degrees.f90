@@ -2,6 +2,7 @@ module lagrangia_degrees
     !! Angles are in radians. Who types 45 most probably means degrees, and is told what they are.
     use lagrangia_description, only: description_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -50,7 +51,7 @@ contains
         character(:), allocatable :: text
 
         text = ""
-        if (any(abs(values - 5.0_dp*anint(values/5.0_dp)) > 0.0_dp)) return
+        if (any(is_nonzero(values - 5.0_dp*anint(values/5.0_dp)))) return
         text = degrees_advice(values(maxloc(abs(values), 1)), unit)
     end function degrees_in
 end module lagrangia_degrees

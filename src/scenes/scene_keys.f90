@@ -8,6 +8,7 @@ module lagrangia_scene_keys
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
                                   get_strings, has_key, is_overridden, namelist_t, point_advice, &
                                   refuse_value
+    use lagrangia_number_class, only: is_zero
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
@@ -153,7 +154,7 @@ contains
         end if
         if (size(tree%starts) == 1 .or. is_overridden(tree, "scene", "q")) return
         remedy = "; add --set scene%q="//to_text(ndof)//" values"
-        if (all(abs(q - q(1)) <= 0.0_dp)) remedy = "; add --set scene%q="//to_text(ndof)//"*"// &
+        if (all(is_zero(q - q(1)))) remedy = "; add --set scene%q="//to_text(ndof)//"*"// &
                                                   to_text(q(1))
     end function start_advice
 

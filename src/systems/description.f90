@@ -4,6 +4,7 @@ module lagrangia_description
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
+    use lagrangia_number_class, only: is_zero
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -293,7 +294,7 @@ contains
             else
                 good = good .and. p%value(i) >= p%lower
             end if
-            if (p%whole) good = good .and. abs(p%value(i) - anint(p%value(i))) <= 0.0_dp
+            if (p%whole) good = good .and. is_zero(p%value(i) - anint(p%value(i)))
             if (.not. good) then
                 call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
                           " is not allowed: "//p%domain())

@@ -9,7 +9,7 @@ module lagrangia_lagrangian_system
     !!
     !! L must be of degree two in the velocities, its mass matrix positive definite. Forces that L
     !! lacks are in `generalised_forces`.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_bound_system, only: bound_system_t
     use lagrangia_description, only: description_t
     use lagrangia_elimination, only: solve_positive
@@ -18,6 +18,7 @@ module lagrangia_lagrangian_system
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_system, only: check_parameters
     implicit none (type, external)
     private
@@ -137,26 +138,26 @@ contains
             if (is_spare(k, used)) cycle
             call trial_state(k, t, q, v)
             call expand_lagrangian(self, t, q, v, terms)
-            if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq]))) cycle
-            cyclic = cyclic .and. abs(terms%dl_dq) <= 0.0_dp
+            if (.not. all_finite([terms%l, terms%dl_dt, terms%dl_dq])) cycle
+            cyclic = cyclic .and. is_zero(terms%dl_dq)
             tt = hyperdual_t(re=t, d1=1.0_dp)
             qq%re = q
             vv%re = v
             call self%generalised_forces(tt, qq, vv, beside)
-            acted = acted .or. any(abs(beside%re) > 0.0_dp)
+            acted = acted .or. any(is_nonzero(beside%re))
             ! false of NaN, too
             self%workless = self%workless .and. abs(dot_product(beside%re, v)) <= &
                             self%ndof*epsilon(t)*dot_product(abs(beside%re), abs(v))
-            cyclic = cyclic .and. abs(beside%re) <= 0.0_dp
-            self%timeless_lagrangian = self%timeless_lagrangian .and. abs(terms%dl_dt) <= 0.0_dp
-            self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp &
-                                  .or. any(abs(beside%d1) > 0.0_dp)
+            cyclic = cyclic .and. is_zero(beside%re)
+            self%timeless_lagrangian = self%timeless_lagrangian .and. is_zero(terms%dl_dt)
+            self%time_dependent = self%time_dependent .or. is_nonzero(terms%dl_dt) &
+                                  .or. any(is_nonzero(beside%d1))
             used = used + 1
             if (self%velocity_forces) cycle
             call self%accelerations(t, q, v, a)
             v = -0.5_dp*v  ! a friction that is always the same turns round, too
             call self%accelerations(t, q, v, b)
-            if (.not. all(ieee_is_finite([a, b]))) cycle
+            if (.not. all_finite([a, b])) cycle
             moves = .true.
             self%velocity_forces = maxval(abs(a - b)) > 0.0_dp
         end do
@@ -195,19 +196,19 @@ contains
             qq = hyperdual_t()
             qq%re = q
             call self%constraint_rows(tt, qq, rows, drift)
-            if (.not. (all(ieee_is_finite(rows%re)) .and. all(ieee_is_finite(drift%re)))) cycle
-            moving = abs(drift%re) > 0.0_dp
+            if (.not. (all_finite(rows%re) .and. all_finite(drift%re))) cycle
+            moving = is_nonzero(drift%re)
             self%constraints_work = self%constraints_work .or. any(moving)
-            self%time_dependent = self%time_dependent .or. any(abs(rows%d1) > 0.0_dp) .or. &
-                                  any(abs(drift%d1) > 0.0_dp)
+            self%time_dependent = self%time_dependent .or. any(is_nonzero(rows%d1)) .or. &
+                                  any(is_nonzero(drift%d1))
             if (allocated(self%holonomic)) self%time_dependent = self%time_dependent .or. &
                 any(moving .and. self%holonomic)
             do i = 1, self%ndof
                 qq(i)%d1 = 1.0_dp
                 call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
                 qq(i)%d1 = 0.0_dp
-                if (any(abs(rows(:, i)%re) > 0.0_dp) .or. any(abs(rows%d1) > 0.0_dp) .or. &
-                    any(abs(drift%d1) > 0.0_dp)) cyclic(i) = .false.
+                if (any(is_nonzero(rows(:, i)%re)) .or. any(is_nonzero(rows%d1)) .or. &
+                    any(is_nonzero(drift%d1))) cyclic(i) = .false.
             end do
             used = used + 1
         end do

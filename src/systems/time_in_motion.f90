@@ -1,9 +1,9 @@
 module lagrangia_time_in_motion
     !! Whether the equations of motion contain the time, which may be in L and drop out of them: of
     !! \(V + \sin t\), of \(L + dF(t, q)/dt\), of \(e^{ct}(T - V)\).
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: last_state, trial_state
+    use lagrangia_number_class, only: all_finite
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -30,13 +30,13 @@ contains
             call system%accelerations(t, q, v, a)
             scale = maxval(abs(a))
             call system%accelerations(t, 0.7_dp*q, v, b)
-            if (all(ieee_is_finite(b))) scale = max(scale, maxval(abs(b)))
+            if (all_finite(b)) scale = max(scale, maxval(abs(b)))
             call system%accelerations(t, q, -0.5_dp*v, b)
-            if (all(ieee_is_finite(b))) scale = max(scale, maxval(abs(b)))
-            if (.not. all(ieee_is_finite(a))) cycle
+            if (all_finite(b)) scale = max(scale, maxval(abs(b)))
+            if (.not. all_finite(a)) cycle
             do i = 1, size(parts)
                 call system%accelerations(parts(i)*t, q, v, b)
-                if (.not. all(ieee_is_finite(b))) cycle
+                if (.not. all_finite(b)) cycle
                 yes = any(abs(a - b) > rounding*scale)
                 if (yes) return
             end do

@@ -5,6 +5,7 @@ module lagrangia_typical_sizes
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_number_class, only: is_zero
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -35,7 +36,7 @@ contains
         call system%accelerations(t, q, 0.0_dp*v, a)
         size_of = abs(q)
         if (all(size_of <= 0.0_dp)) then  ! a way that is gone in the time in which v changes
-            if (all(abs(v) <= 0.0_dp)) return  ! nothing tells a size
+            if (all(is_zero(v))) return  ! nothing tells a size
             call system%accelerations(t, q, v, a)
             rate = norm2(sqrt(mass)*a)/norm2(sqrt(mass)*v)
             if (.not. (ieee_is_finite(rate) .and. rate > 0.0_dp)) rate = 1.0_dp
@@ -52,7 +53,7 @@ contains
         where (size_of <= 0.0_dp) size_of = action/sqrt(mass)
         time = power_of_two(1.0_dp/rate)
         allocate (places, source=power_of_two(size_of))
-        if (all(abs([places, time] - 1.0_dp) <= 0.0_dp)) deallocate (places)
+        if (all(is_zero([places, time] - 1.0_dp))) deallocate (places)
     end subroutine find_typical_sizes
 
     elemental function power_of_two(x) result(near)

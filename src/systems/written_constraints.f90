@@ -4,7 +4,7 @@ module lagrangia_written_constraints
     use lagrangia_canonical_form, only: simplified
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, kind_number, operator(*), operator(+), &
+    use lagrangia_expression, only: expression_t, operator(*), operator(+), &
                                     operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_kinds, only: dp
@@ -13,7 +13,7 @@ module lagrangia_written_constraints
     use lagrangia_written_motion, only: written_motion_t
     implicit none (type, external)
     private
-    public :: constraint_drift, constraint_row, is_in_velocities, is_zero, read_constraints
+    public :: constraint_drift, constraint_row, is_in_velocities, read_constraints
     public :: velocity_constraint, with_multipliers
 
 contains
@@ -40,7 +40,7 @@ contains
             end if
             if (.not. allocated(error)) then
                 constraints(i) = left
-                if (.not. is_zero(right)) constraints(i) = left - right
+                if (.not. right%is_zero()) constraints(i) = left - right
                 call check(constraints(i), n, symbols, error)
             end if
             if (.not. allocated(error) .and. i == n) call fail(error, "as many constraints as "// &
@@ -166,14 +166,4 @@ contains
             end do
         end do
     end subroutine with_multipliers
-
-    pure function is_zero(expression) result(yes)
-        !! By its form.
-        type(expression_t), intent(in) :: expression  !! of any symbols
-        logical :: yes
-
-        yes = expression%count == 1
-        if (yes) yes = expression%nodes(1)%kind == kind_number
-        if (yes) yes = abs(expression%nodes(1)%number%value) <= 0.0_dp
-    end function is_zero
 end module lagrangia_written_constraints

@@ -10,7 +10,7 @@ module lagrangia_written_expressions
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_symbols, only: check_name, symbols_t
     use lagrangia_text, only: lower, quoted, to_text
-    use lagrangia_written_constraints, only: is_zero, read_constraints
+    use lagrangia_written_constraints, only: read_constraints
     use lagrangia_written_equilibrium, only: read_equilibrium
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_points, only: read_points, read_rotors
@@ -199,7 +199,7 @@ contains
         type(written_formulas_t), intent(in) :: formulas
         type(written_expressions_t), intent(inout) :: expressions
         type(error_t), allocatable, intent(out) :: error
-        type(expression_t) :: of_points
+        type(expression_t) :: difference, of_points
         character(:), allocatable :: name
         integer :: i
 
@@ -221,8 +221,8 @@ contains
                 expressions%kinetic = of_points
                 if (t /= "") call parse("t", t, expressions%kinetic)
                 if (allocated(error)) return
-                expressions%of_points = is_zero(simplified(expressions%kinetic - of_points, &
-                                                           expressions%symbols))
+                difference = simplified(expressions%kinetic - of_points, expressions%symbols)
+                expressions%of_points = difference%is_zero()
                 if (v /= "") call parse("v", v, expressions%potential)
                 if (allocated(error)) return
                 expressions%lagrangian = expressions%kinetic - expressions%potential
@@ -255,7 +255,7 @@ contains
 
         yes = .false.
         do i = 1, size(masses)
-            yes = yes .or. .not. is_zero(masses(i))
+            yes = yes .or. .not. masses(i)%is_zero()
         end do
     end function any_mass
 
@@ -272,7 +272,7 @@ contains
         rates(2:1 + n) = [(1 + n + i, i=1, n)]
         kinetic = whole(0)
         do i = 1, size(expressions%masses)
-            if (is_zero(expressions%masses(i))) cycle
+            if (expressions%masses(i)%is_zero()) cycle
             square = whole(0)
             do k = 3*i - 2, 3*i
                 square = square + time_derivative(expressions%places(k), rates, 1)**2

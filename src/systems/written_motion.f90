@@ -3,7 +3,7 @@ module lagrangia_written_motion
     !! right-hand sides, and the accelerations by elimination.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_derivative, only: derivative, time_derivative
-    use lagrangia_expression, only: expression_t, kind_difference, kind_number, kind_product, &
+    use lagrangia_expression, only: expression_t, kind_difference, kind_product, &
                                     kind_quotient, operator(*), operator(+), operator(-), symbol, &
                                     whole
     use lagrangia_kinds, only: dp
@@ -42,7 +42,7 @@ contains
             motion%slopes(i) = derivative(lagrangian, 1 + i)
             motion%right(i) = motion%slopes(i) - time_derivative(motion%momenta(i), rates, 1)
             call leave_out_what_cancels(motion%right(i), 1 + 2*n, symbols)
-            if (.not. is_zero(forces(i))) motion%right(i) = motion%right(i) + forces(i)
+            if (.not. forces(i)%is_zero()) motion%right(i) = motion%right(i) + forces(i)
             motion%energy = motion%energy + symbol(1 + n + i)*motion%momenta(i)
             do j = 1, i
                 motion%mass(i, j) = derivative(motion%momenta(i), 1 + n + j)
@@ -151,7 +151,7 @@ contains
         integer, intent(out) :: node
 
         node = 0
-        if (.not. is_zero(expression)) call all%append(expression, node)
+        if (.not. expression%is_zero()) call all%append(expression, node)
     end subroutine append
 
     pure subroutine divide(all, a, b, node)
@@ -190,16 +190,4 @@ contains
             expression = all%pruned(node)
         end if
     end function at_node
-
-    pure function is_zero(expression) result(yes)
-        !! By its form.
-        type(expression_t), intent(in) :: expression
-        logical :: yes
-
-        yes = expression%count == 0
-        if (expression%count /= 1) return
-        associate (node => expression%nodes(1))
-            yes = node%kind == kind_number .and. abs(node%number%value) <= 0.0_dp
-        end associate
-    end function is_zero
 end module lagrangia_written_motion

@@ -14,6 +14,7 @@ module lagrangia_written_quantities
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, last_state, &
                                           near_states, trial_state
+    use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -78,7 +79,7 @@ contains
             call keep_constraints(system, t, q, v)
             call system%accelerations(t, q, v, a)
             call rates(program, t, q, v, a, rate, terms)
-            if (.not. all(ieee_is_finite([a, rate, terms]))) cycle
+            if (.not. all_finite([a, rate, terms])) cycle
             used = used + 1
             if (k > near_states) then
                 call find_noise(system, program, t, q, v, rate, noise)
@@ -117,7 +118,7 @@ contains
             call program%evaluate([t, q, v, system%p], values)
             if (.not. ieee_is_finite(values(1))) cycle
             used = used + 1
-            yes = yes .and. abs(values(1)) <= 0.0_dp
+            yes = yes .and. is_zero(values(1))
         end do
     end function is_workless
 

@@ -2,6 +2,7 @@ module lagrangia_gnuplot_axes
     !! Scales, ranges and labels of a panel's axes, as lines of a gnuplot script.
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_number_text, only: rounded
     use lagrangia_plot_label, only: label, labels
     use lagrangia_plot_panel, only: panel_t, series_t, told_apart
@@ -118,7 +119,7 @@ contains
         high = maxval(x%high)
         if (.not. high > low) then
             width = max(0.1_dp*abs(low), tiny(width))
-            if (abs(low) <= 0.0_dp) width = 1.0_dp
+            if (is_zero(low)) width = 1.0_dp
             call script%add("set xrange ["//to_text(low - width)//":"//to_text(low + width)//"]")
             return
         end if
@@ -157,7 +158,7 @@ contains
         integer :: behind, last, power
 
         letters = 1
-        if (.not. (abs(value) > 0.0_dp .and. step > 0.0_dp)) return
+        if (.not. (is_nonzero(value) .and. step > 0.0_dp)) return
         power = floor(log10(abs(value)) + 1e-9_dp)
         last = floor(log10(step) + 1e-9_dp)
         if (power < -4 .or. power >= max(usual, power - last + 1)) then

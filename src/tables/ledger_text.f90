@@ -4,6 +4,7 @@ module lagrangia_ledger_text
     use lagrangia_json, only: json_item, json_number, json_object, json_pair
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_length, claim_t
+    use lagrangia_number_class, only: is_zero
     use lagrangia_number_text, only: scientific
     use lagrangia_printed_table, only: left, right, short, two_digits
     use lagrangia_text, only: to_text
@@ -78,7 +79,7 @@ contains
         real(dp), intent(in) :: value
         character(15) :: text
 
-        if (abs(value) < 1e6_dp .and. abs(value - anint(value)) <= 0.0_dp) then
+        if (abs(value) < 1e6_dp .and. is_zero(value - anint(value))) then
             write (text, "(ss, i15)") nint(value)
         else if (abs(value) >= 1e-2_dp .and. abs(value) < 1e4_dp) then
             write (text, "(ss, f15.9)") value

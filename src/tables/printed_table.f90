@@ -6,6 +6,7 @@ module lagrangia_printed_table
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_json, only: json_item, json_number, json_object, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_number_text, only: scientific
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
@@ -218,7 +219,7 @@ contains
         character(:), allocatable :: text
 
         text = "0"
-        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) text = scientific(value, 2)
+        if (is_nonzero(value) .or. .not. is_zero(value)) text = scientific(value, 2)
     end function two_digits
 
     pure function short(number, digits) result(text)
@@ -233,7 +234,7 @@ contains
         text = "-"
         if (.not. ieee_is_finite(number)) return
         exponent = 0
-        if (abs(number) > 0.0_dp) exponent = floor(log10(abs(number)*(1.0_dp + epsilon(number))))
+        if (is_nonzero(number)) exponent = floor(log10(abs(number)*(1.0_dp + epsilon(number))))
         if (exponent < -3 .or. exponent > 8) then
             write (layout, "(ss, a, i0, a)") "(ss, es20.", digits - 1, "e3)"
         else

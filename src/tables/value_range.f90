@@ -2,6 +2,7 @@ module lagrangia_value_range
     !! What a picture must know of a column before it is drawn: where its values lie, how near to
     !! zero, and how often they turn round.
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
     public :: value_range_t, range_of
@@ -29,13 +30,13 @@ contains
 
         self%low = min(self%low, value)
         self%high = max(self%high, value)
-        if (abs(value) > 0.0_dp) then
+        if (is_nonzero(value)) then
             self%least = min(self%least, abs(value))
         else
             self%zeros = self%zeros + 1
         end if
         rise = value - self%last
-        if (self%count > 0 .and. abs(rise) > 0.0_dp) then
+        if (self%count > 0 .and. is_nonzero(rise)) then
             if ((rise > 0.0_dp .and. self%rise < 0.0_dp) .or. &
                 (rise < 0.0_dp .and. self%rise > 0.0_dp)) self%turns = self%turns + 1
             self%rise = rise
