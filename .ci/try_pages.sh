@@ -236,9 +236,49 @@ written '*.gp' sweep bifurcation --over f=1:1.5:3
 written '*.gp' sweep section --over theta2_dot=-1:1:3
 written '*.gp' sweep lyapunov_map --over W=0.5:1:2 --over f=1:1.5:2
 written '*.gp' sweep flip_map --over theta1=0.5:3:6:random --over theta2=-1:1:6:random
+written '*.gp' modes oscillator --set oscillator%k=1e10
+written '*.gp' modes oscillator --set oscillator%k=1e-10
+written '*.gp' run pendulum --set "scene%plot='theta+energy_drift'" --set scene%duration=1
+written '*.gp' run pendulum pendulum_rotation --overlay --set scene%columns=t,theta,theta_dot,theta_ddot,energy,x_bob,y_bob,tension,L_z --set scene%duration=1
+written '*.dat' run pendulum --set scene%method=dop853 --set scene%tolerance=1e-9 --set scene%samples=4 --set scene%duration=2 --set scene%event='t = 1 stop'
+written '*.html' run .ci/inputs/named_size.nml .ci/inputs/parameter_size.nml .ci/inputs/defined_size.nml --animate
+rest=.ci/inputs/far_rest.nml
+files sweep $rest --over x0=-6:6:7 --over x_dot=-1:1:2
+written '*.gp' sweep $rest --set scene%duration=25
+written '*.gp' sweep $rest --over x0=-6.5:6.5:14 --over x_dot=-1:1:2
+written '*.gp' sweep $rest --over x0=-5:-5:1 --over x_dot=-1:1:2
+written '*.gp' sweep $rest --over k=4:4:1:log --over x_dot=-1:1:2
+written '*.gp' sweep $rest --over k=8:4:3:log --over x_dot=1:-1:3
+written '*.gp' sweep $rest --over k=4:8:3:random --over x_dot=1:-1:3
+written '*.gp' sweep section --over theta2_dot=1:1:1 --set scene%duration=10
+written '*.gp' sweep pendulum --over theta=0.5:3:61:random --set scene%duration=1 --keep theta
+written '*.gp' sweep .ci/inputs/root.nml --keep x --set scene%duration=1000 --set sweep%strobe=0.1 --set sweep%points=20000 --over x=1:3:3
+files sweep .ci/inputs/root.nml
+files sweep flip_map --set scene%duration=3.325 --over theta1=3:3.1:2
+files sweep pendulum --over theta=1:2:2 --keep 'first theta_dot = -0.12500000000000000000000000 falling'
+written '*.html' run .ci/inputs/bare_tolerance.nml --animate
+written '*.html' run .ci/inputs/bare.nml --set scene%q=0 --animate
+written '*.html' run cart_pendulum_auto --set scene%duration=2 --animate
+written '*.html' run pendulum --set scene%q=0 --set scene%duration=1 --animate
+written '*.html' run pendulum --set scene%duration=1e-160 --set scene%dt=1e-162 --animate
+written '*.html' compare pendulum --methods rk4,verlet --animate --set scene%dt=0.3 --set scene%duration=9 --set scene%event='theta = -0.99 stop'
+written '*.html' modes .ci/inputs/unseen.nml --animate
+written '*.html' run .ci/inputs/crowd.nml --animate
+written '*.html' modes .ci/inputs/crowd.nml --animate
+written '*.html' modes .ci/inputs/_bare.nml --animate
+written '*' run .ci/inputs/swing_8.nml .ci/inputs/swing_4.nml --overlay
+written '*.gp' run .ci/inputs/swing_4.nml .ci/inputs/swing_8.nml --overlay
+written '*.gp' compare pendulum --starts '1:1 1:-1' --set scene%duration=0.5
+written '*.gp' run .ci/inputs/two_springs.nml
+written '*.gp' run .ci/inputs/sea.nml --set scene%columns=t,x,y_drift_2,energy_drift --set scene%plot=y_drift_2+energy_drift
+written '*.gp' run pendulum --set scene%plot='theta+energy_drift' --set scene%columns=t,theta,energy_drift --set scene%dt=0.05 --set scene%duration=2000 --set scene%every=1
+written '*.gp' run double_pendulum --set scene%columns=t,x_bob1,y_bob1,x_bob2,y_bob2 --set scene%plot='x_bob1:y_bob1+y_bob2' --set scene%duration=2
+written '*.gp' run pendulum --set scene%q=0 --set scene%columns=t,y_bob,theta --set scene%plot=y_bob:theta --set scene%duration=1
+written '*.html' run pendulum --animate --set scene%duration=1 --set scene%title='theta of 5e3x x^foo a_b ^ c 5e'
 "$program" bench precision --quick --problems oscillator,P1 --methods rk4,dop853 --output "$work/files" >/dev/null 2>&1
 keep the script of bench < <(sed -E 's/\[[0-9.e+-]+:[0-9.e+-]+\]/[~]/g' "$work/files/bench.gp")
 command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
+command -v gnuplot >/dev/null && files report .ci/inputs/bare.nml
 for principle in $("$program" principle | awk '{ print $1 }'); do written '*' principle "$principle"; done
 if [ -n "$accept" ]; then
     echo "$count pages kept in $pages"

@@ -100,6 +100,7 @@ module suites
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
     use test_ledger_text, only: ledger_text_suite
+    use test_letter_products, only: letter_products_suite
     use test_library_arguments, only: library_arguments_suite
     use test_library_calls, only: library_calls_suite
     use test_lyapunov_lanes, only: lyapunov_lanes_suite
@@ -135,6 +136,7 @@ module suites
     use test_page_formulae, only: page_formulae_suite
     use test_page_headings, only: page_headings_suite
     use test_pages, only: pages_suite
+    use test_parameter_choice, only: parameter_choice_suite
     use test_parameter_domains, only: parameter_domains_suite
     use test_partial_files, only: partial_files_suite
     use test_pasted_characters, only: pasted_characters_suite
@@ -330,6 +332,7 @@ contains
         call suite%addTest(lapack_band_suite())
         call suite%addTest(ledger_text_suite())
         call suite%addTest(least_time_suite())
+        call suite%addTest(letter_products_suite())
         call suite%addTest(library_arguments_suite())
         call suite%addTest(library_calls_suite())
         call suite%addTest(lyapunov_lanes_suite())
@@ -359,6 +362,7 @@ contains
         call suite%addTest(page_formulae_suite())
         call suite%addTest(page_headings_suite())
         call suite%addTest(pages_suite())
+        call suite%addTest(parameter_choice_suite())
         call suite%addTest(parameter_domains_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pasted_characters_suite())

@@ -13,7 +13,10 @@ module test_audit
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use liars, only: liars_known, new_liar
     use mutants, only: mutants_known, new_mutant
     use test_audit_states, only: audit_states_suite
@@ -43,6 +46,8 @@ contains
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
         call suite%addTest(TestMethod("findings_keep_the_worst", findings_keep_the_worst))
         call suite%addTest(TestMethod("reactions_are_said_by_name", reactions_are_said_by_name))
+        call suite%addTest(TestMethod("forces_that_are_mostly_zero_act", &
+                                      forces_that_are_mostly_zero_act))
         call suite%addTest(audit_states_suite())
     end function audit_suite
 
@@ -386,4 +391,31 @@ contains
         call assertEqual("first", trim(audit%rows(2)%remark))
         call assertEqual("", trim(audit%rows(1)%remark))
     end subroutine findings_keep_the_worst
+
+    subroutine forces_that_are_mostly_zero_act()
+        !! At one time, at one place; or they are the same at all velocities but the smallest. Each
+        !! on one of two coordinates.
+        call judge("exp(-(15 t)^2)")
+        call judge("exp(-(14 x)^2)")
+        call judge("-tanh(1000 x_dot)")
+    contains
+        subroutine judge(force)
+            character(*), intent(in) :: force
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(scene_t) :: scene
+            type(word_t) :: none(0)
+            type(ledger_t) :: audit
+
+            call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 0.6, -0.8 / "// &
+                             "&lagrangian coordinates = 'x', 'y', parameters = 'm', domain = "// &
+                             "'m > 0', L = 'm/2 (x_dot^2 + y_dot^2) - m/2 (x^2 + y^2)', "// &
+                             "Q_x = '"//force//"' / &o m = 1 /", "text", none, scene, system, error)
+            call assertFalse(allocated(error), "read: "//force)
+            if (allocated(error)) return
+            call assertTrue(system%nonconservative, "it acts: "//force)
+            call audit_system(system, audit)
+            call assertEqual(0, audit%broken(), message="claims that do not hold: "//force)
+        end subroutine judge
+    end subroutine forces_that_are_mostly_zero_act
 end module test_audit

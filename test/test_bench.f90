@@ -34,6 +34,8 @@ contains
         call suite%addTest(TestMethod("tables_are_lines_and_objects", tables_are_lines_and_objects))
         call suite%addTest(TestMethod("debug_builds_are_refused", debug_builds_are_refused))
         call suite%addTest(TestMethod("choices_are_checked", choices_are_checked))
+        call suite%addTest(TestMethod("tables_of_words_or_without_rows", &
+                                      tables_of_words_or_without_rows))
     end function bench_suite
 
     subroutine get_problems(problems)
@@ -199,6 +201,28 @@ contains
         call assertEqual("rk4      1.50     12", lines(2)%text)
         call assertEqual("more     40.0     40", lines(43)%text)
     end subroutine tables_are_lines_and_objects
+
+    subroutine tables_of_words_or_without_rows()
+        !! All columns hold the names of rows; without rows there are the titles, to the left.
+        type(printed_table_t) :: table
+        type(word_t), allocatable :: lines(:)
+
+        call table%begin("demo", "a title", [character(8) :: "method", "of"])
+        call table%lines(huge(1), lines)
+        call assertEqual(1, size(lines), "no rows")
+        call assertEqual("method  of", lines(1)%text)
+        call table%begin("demo", "a title", [character(8) :: "a", "b", "column_c", "column_d"])
+        call table%lines(16, lines)
+        call assertEqual(3, size(lines), "two parts")
+        call assertEqual("a  b  column_c", lines(1)%text)
+        call assertEqual("a  b  column_d", lines(3)%text, "the names of the rows in each")
+        call table%begin("demo", "a title", [character(8) :: "method", "of"])
+        call table%add([word_cell("rk4"), word_cell("Runge and Kutta")])
+        call table%lines(huge(1), lines)
+        call assertEqual(2, size(lines), "one row")
+        call assertEqual("method  of", lines(1)%text)
+        call assertEqual("rk4     Runge and Kutta", lines(2)%text)
+    end subroutine tables_of_words_or_without_rows
 
     subroutine debug_builds_are_refused()
         !! With the remedy, as a mistake of usage.

@@ -2,9 +2,12 @@ module test_consequences
     !! Which wrong lines of a sheet another one follows from, and what is said of statements that
     !! something does not change: in whole sheets, each remark as it is printed.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse
+    use lagrangia_consequences, only: consequences_t
     use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: operator(-), symbol, whole
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, parse_homework
+    use lagrangia_sample_names, only: samples_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
@@ -26,6 +29,8 @@ contains
         call suite%addTest(TestMethod("letters_alone", letters_alone))
         call suite%addTest(TestMethod("what_changes_and_why", what_changes_and_why))
         call suite%addTest(TestMethod("sums_that_end_in_a_constant", sums_that_end_in_a_constant))
+        call suite%addTest(TestMethod("no_more_mistakes_than_there_is_room_for", &
+                                      no_more_mistakes_than_there_is_room_for))
     end function consequences_suite
 
     subroutine one_line_or_two()
@@ -109,6 +114,22 @@ contains
                     "two changes: 'V' lacks the factor '(-1) m1/(m1 - m2)'; "// &
                     "'m2 g (l - pi R - x)' does not belong there"])
     end subroutine sums_that_end_in_a_constant
+
+    subroutine no_more_mistakes_than_there_is_room_for()
+        !! The 201st is not remembered.
+        type(consequences_t) :: consequences
+        type(samples_t) :: truth  ! without a mass matrix: no other world is tried
+        integer :: i
+
+        truth%ndof = 0
+        truth%frequency = 5
+        truth%symbols%names = ["a", "b"]
+        do i = 1, 201
+            call consequences%add_mistake(i, symbol(2) - whole(i), truth)
+        end do
+        call assertEqual(200, consequences%mistakes)
+        call assertEqual(0, consequences%count)
+    end subroutine no_more_mistakes_than_there_is_room_for
 
     subroutine sheet(name, lines, remarks)
         !! These lines about a system, and the first line of the remark on each statement; `*`: any.

@@ -20,6 +20,7 @@ module test_constrained_system
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     use stated_text, only: is_said
+    use test_constraints_in_time, only: constraints_in_time_suite
     use test_ends_of_constraints, only: ends_of_constraints_suite
     implicit none (type, external)
     private
@@ -56,6 +57,7 @@ contains
         call suite%addTest(TestMethod("refusals", refusals))
         call suite%addTest(TestMethod("nonsense_is_refused_in_one_line", &
                                       nonsense_is_refused_in_one_line))
+        call suite%addTest(constraints_in_time_suite())
         call suite%addTest(ends_of_constraints_suite())
     end function constrained_system_suite
 

@@ -1,9 +1,11 @@
 module test_constraints
     !! One-forms against geometry: differences, known brackets, the disk's loop.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_constraints, only: loop_of_disk
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(**), operator(-)
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(**), operator(-), &
+                                   sqrt
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
     use lagrangia_lecture_constraints, only: classify, example_point, examples, &
@@ -29,6 +31,18 @@ module test_constraints
         procedure :: forms => leaf_forms
     end type leaf_t
 
+    type, extends(pfaffian_t) :: two_forms_t
+        !! Two forms: one depends on the time only, one on the coordinates only.
+    contains
+        procedure :: forms => two_forms
+    end type two_forms_t
+
+    type, extends(pfaffian_t) :: root_form_t
+        !! With a root: no slope at \(y = 0\), no number below.
+    contains
+        procedure :: forms => root_form
+    end type root_form_t
+
 contains
 
     function constraints_suite() result(suite)
@@ -43,6 +57,8 @@ contains
         call suite%addTest(TestMethod("disk_is_the_systems", disk_is_the_systems))
         call suite%addTest(TestMethod("brackets_of_brackets", brackets_of_brackets))
         call suite%addTest(TestMethod("loops", loops))
+        call suite%addTest(TestMethod("the_largest_of_two_forms_counts", &
+                                      the_largest_of_two_forms_counts))
     end function constraints_suite
 
     subroutine ranks()
@@ -211,6 +227,28 @@ contains
         call assertEqual(0.0_dp, maxval(abs(path(2:3, :))), 1e-15_dp)
     end subroutine loops
 
+    subroutine the_largest_of_two_forms_counts()
+        !! One of which is closed, and one of which does not move; and NaN is no integrable form.
+        type(two_forms_t) :: two
+        type(root_form_t) :: root
+
+        two%coordinates = 2
+        two%rows = 2
+        call assertEqual(1.0_dp, two%curl([0.5_dp, 0.7_dp, 2.0_dp]), tolerance=0.0_dp, &
+                         message="curl")
+        call assertEqual(2.0_dp, two%motion([0.5_dp, 0.7_dp, 2.0_dp]), tolerance=0.0_dp, &
+                         message="motion")
+        call assertTrue(two%moves([0.5_dp, 0.7_dp, 2.0_dp]), "one of them moves")
+        root%coordinates = 3
+        root%rows = 1
+        call assertEqual(1.0_dp, root%frobenius([0.5_dp, 1.0_dp, 2.0_dp, 1.0_dp]), &
+                         tolerance=1e-15_dp, message="y = 1")
+        call assertTrue(ieee_is_nan(root%frobenius([0.5_dp, 0.0_dp, 2.0_dp, 1.0_dp])), &
+                        "no slope at y = 0")
+        call assertTrue(ieee_is_nan(root%frobenius([0.5_dp, -1.0_dp, 2.0_dp, 1.0_dp])), &
+                        "no root below")
+    end subroutine the_largest_of_two_forms_counts
+
     pure subroutine engel_forms(self, x, a)
         !! Coordinates x, y, z, w.
         class(engel_t), intent(in) :: self
@@ -238,4 +276,29 @@ contains
         a(2, 3) = (-2.0_dp)*x(1)*x(3) - x(2)
         a(2, 4) = hyperdual(1.0_dp)
     end subroutine leaf_forms
+
+    pure subroutine two_forms(self, x, a)
+        !! \(dx + t\,dt\) and \(y\,dx + dy\).
+        class(two_forms_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: x(self%coordinates + 1)
+        type(hyperdual_t), intent(out) :: a(self%rows, self%coordinates + 1)
+
+        a = hyperdual_t()
+        a(1, 1) = hyperdual(1.0_dp)
+        a(1, 3) = x(3)
+        a(2, 1) = x(2)
+        a(2, 2) = hyperdual(1.0_dp)
+    end subroutine two_forms
+
+    pure subroutine root_form(self, x, a)
+        !! \(dx + \sqrt y\,dy + y\,dz\).
+        class(root_form_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: x(self%coordinates + 1)
+        type(hyperdual_t), intent(out) :: a(self%rows, self%coordinates + 1)
+
+        a = hyperdual_t()
+        a(1, 1) = hyperdual(1.0_dp)
+        a(1, 2) = sqrt(x(2))
+        a(1, 3) = x(2)
+    end subroutine root_form
 end module test_constraints

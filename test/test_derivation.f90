@@ -43,6 +43,7 @@ contains
         call suite%addTest(TestMethod("a_wrong_description_is_found", wrong_description_is_found))
         call suite%addTest(TestMethod("a_slip_is_wrong_where_it_is_put_in", slips_are_found))
         call suite%addTest(TestMethod("derivations_read_like_the_page", reads_like_the_page))
+        call suite%addTest(TestMethod("a_remark_is_escaped_for_latex", remark_is_escaped))
     end function derivation_suite
 
     subroutine check_system(system, random, lines)
@@ -304,6 +305,19 @@ contains
         call reads("driven_pendulum", [character(100) :: &
             "theta_ddot = -sin(theta) (g - a W^2 cos(W t))/l"])
     end subroutine reads_like_the_page
+
+    subroutine remark_is_escaped()
+        !! What is no formula is typed as it is; what comes with its LaTeX is not touched.
+        type(derivation_t) :: derivation
+
+        allocate (derivation%lines(2))
+        call derivation%add_words("not x_1 = a^2 & 50 %")
+        call derivation%add_words("x^2", "$x^2$")
+        call assertEqual("not x_1 = a^2 & 50 %", derivation%lines(1)%left, message="as typed")
+        call assertEqual("not x\_1 = a\^{}2 \& 50 \%", derivation%lines(1)%left_latex, &
+                         message="no power is opened by what is no formula")
+        call assertEqual("$x^2$", derivation%lines(2)%left_latex, message="as given")
+    end subroutine remark_is_escaped
 
     subroutine reads(name, page)
         !! The derivation of a system has these lines in this order.

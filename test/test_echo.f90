@@ -8,7 +8,7 @@ module test_echo
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_scene_reader, only: parse_scene, read_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text
@@ -29,6 +29,8 @@ contains
         call suite%addTest(TestMethod("every_echo_is_the_scene", every_echo_is_the_scene))
         call suite%addTest(TestMethod("long_lists_are_not_cut", long_lists_are_not_cut))
         call suite%addTest(TestMethod("quotes_and_digits_survive", quotes_and_digits_survive))
+        call suite%addTest(TestMethod("a_formula_is_broken_where_it_may_be", &
+                                      a_formula_is_broken_where_it_may_be))
     end function echo_suite
 
     function echo(scene, system) result(text)
@@ -166,4 +168,28 @@ contains
         call check_echo(scene, system, again)
         call assertEqual(-1.0_dp, sign(1.0_dp, again%v(1)), message="the sign of zero")
     end subroutine quotes_and_digits_survive
+
+    subroutine a_formula_is_broken_where_it_may_be()
+        !! Behind 80 characters without a place to break at the first there is: before `**`, not
+        !! inside; the signs behind it stay together.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(word_t) :: none(0)
+        character(:), allocatable :: nested
+        integer :: i
+
+        nested = "x"
+        do i = 1, 20
+            nested = "abs("//nested//")"
+        end do
+        call parse_scene("&scene system = 'own', dt = 0.1, duration = 1.0, q = 0.3 /"//nl// &
+            "&lagrangian coordinates = 'x [m]', parameters = 'k [J]', T = 'x_dot^2/2', V = 'k*"// &
+            nested//"**2+k*x+1e-3*k*x**2', /"//nl//"&own k = 1.0 /", "own.nml", none, &
+            scene, system, error)
+        call assertFalse(allocated(error), "read")
+        if (.not. allocated(scene%formulas)) return
+        call assertTrue(any(scene%formulas == "  V = 'k*"//nested//"',"), "up to the power")
+        call assertTrue(any(index(scene%formulas, "    '**2+k*x+1e-3*k*x**2'") == 1), "the rest")
+    end subroutine a_formula_is_broken_where_it_may_be
 end module test_echo

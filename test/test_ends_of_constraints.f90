@@ -1,13 +1,18 @@
 module test_ends_of_constraints
     !! Places where the derivatives of the constraints vanish: a run ends there.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_description, only: line_length
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_run_plan, only: parse_run_plan, run_plan_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_scene_run, only: run_scene
-    use lagrangia_step_ends, only: is_turned
+    use lagrangia_step_ends, only: end_step, is_turned
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
@@ -39,6 +44,10 @@ contains
                                       before_them_and_on_circles_runs_go_on))
         call suite%addTest(TestMethod("turns_of_several_constraints", &
                                       turns_of_several_constraints))
+        call suite%addTest(TestMethod("turns_need_an_exchange_of_rows", &
+                                      turns_need_an_exchange_of_rows))
+        call suite%addTest(TestMethod("steps_backwards_end_on_the_circle", &
+                                      steps_backwards_end_on_the_circle))
     end function ends_of_constraints_suite
 
     subroutine run(keys, group, status, message, t)
@@ -123,4 +132,59 @@ contains
         b(2, :) = 0.0_dp
         call assertTrue(is_turned(a, b, weights), "one that ends")
     end subroutine turns_of_several_constraints
+
+    subroutine turns_need_an_exchange_of_rows()
+        !! Matrices C of three constraints, with b = 1: after the first elimination the pivot is 0,
+        !! and what takes its place is negative; their determinants are 1 and 0.
+        real(dp), parameter :: ones(3) = 1.0_dp
+        real(dp) :: c(3, 3), unit(3, 3)
+        integer :: i
+
+        unit = 0.0_dp
+        do i = 1, 3
+            unit(i, i) = 1.0_dp
+        end do
+        c(1, :) = [1.0_dp, 1.0_dp, 0.0_dp]
+        c(2, :) = [1.0_dp, 1.0_dp, 1.0_dp]
+        c(3, :) = [0.0_dp, -1.0_dp, 1.0_dp]
+        call assertFalse(is_turned(c, unit, ones), "its determinant is 1")
+        c(2, :) = [1.0_dp, 1.0_dp, 0.0_dp]
+        c(3, :) = [0.0_dp, 0.0_dp, 1.0_dp]
+        call assertTrue(is_turned(c, unit, ones), "its determinant is 0")
+    end subroutine turns_need_an_exchange_of_rows
+
+    subroutine steps_backwards_end_on_the_circle()
+        !! A step of -0.1 s: its end is led back to the circle, its velocity along it; one that is
+        !! far from it is none.
+        class(system_t), allocatable :: circle
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+        type(word_t) :: none(0)
+        character(line_length) :: reason
+        real(dp), parameter :: q_old(2) = [0.6_dp, -0.8_dp], v_old(2) = [0.8_dp, 0.6_dp]
+        real(dp) :: q(2), v(2)
+
+        call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 0.6, -0.8 /"//curve// &
+                         "x^2 + y^2 = 1' / &o m = 1 /", "text", none, scene, circle, error)
+        call assertFalse(allocated(error), "a circle")
+        if (allocated(error)) return
+        reason = ""
+        q = q_old - 0.1_dp*v_old
+        v = v_old
+        call end_step(circle, 0.0_dp, q_old, v_old, -0.1_dp, q, v, reason)
+        call assertEqual("", trim(reason), "beside the circle")
+        call assertEqual(1.0_dp, norm2(q), tolerance=1e-14_dp, message="on the circle")
+        call assertEqual(0.0_dp, dot_product(q, v), tolerance=1e-14_dp, message="along the circle")
+        q = q_old
+        v = [1.6_dp, 0.8_dp]
+        call end_step(circle, 0.0_dp, q_old, v_old, -0.1_dp, q, v, reason)
+        call assertEqual("", trim(reason), "a velocity across the circle")
+        call assertEqual([1.408_dp, 1.056_dp], v, tolerance=1e-14_dp, message="what is left of it")
+        q = q_old - 0.1_dp*v_old
+        v = [10.0_dp, -10.0_dp]
+        call end_step(circle, 0.0_dp, q_old, v_old, -0.1_dp, q, v, reason)
+        call assertEqual("its end is far from the constraints: the step is too long, or they "// &
+                         "end there", trim(reason))
+        call assertTrue(all(ieee_is_nan(q)), "no place")
+    end subroutine steps_backwards_end_on_the_circle
 end module test_ends_of_constraints

@@ -1,10 +1,12 @@
 module test_events
     !! Events on the dense output, against closed forms.
     use event_runs, only: find
-    use funit, only: anyExceptions, assertEqual, assertLessThan, assertTrue, TestMethod, TestSuite
+    use funit, only: anyExceptions, assertEqual, assertFalse, assertLessThan, assertTrue, &
+                     TestMethod, TestSuite
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t
-    use lagrangia_events, only: column_event_t, event_box_t, new_column_event
+    use lagrangia_events, only: column_event_t, contact_event_t, event_box_t, &
+                                new_column_event, new_contact_event
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
@@ -12,7 +14,11 @@ module test_events
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
@@ -38,6 +44,7 @@ contains
         call suite%addTest(TestMethod("a terminal event ends the run", terminal))
         call suite%addTest(TestMethod("a string goes slack where it should", slack))
         call suite%addTest(TestMethod("a particle leaves a sphere at cos = 2/3", sphere))
+        call suite%addTest(TestMethod("what events are called", what_events_are_called))
     end function events_suite
 
     subroutine oscillate(texts, x, v0, duration, tolerance, record, ended)
@@ -299,4 +306,31 @@ contains
                              1e-14_dp/angles(i) + 1e-13_dp, "where it leaves")
         end do
     end subroutine sphere
+
+    subroutine what_events_are_called()
+        !! Of the second contact of a system; of a quantity with words and of one without.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+        type(word_t) :: none(0)
+        type(contact_event_t) :: contact
+        type(column_event_t) :: event
+
+        call new_contact_event(contact, 1)
+        call assertEqual("at each impact", trim(contact%place))
+        call new_contact_event(contact, 2)
+        call assertEqual("impact 2", trim(contact%label))
+        call assertEqual("at each impact 2", trim(contact%place))
+        call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 0.6, -0.8 / "// &
+                         "&lagrangian coordinates = 'x', 'y', parameters = 'm', "// &
+                         "T = 'm/2 (x_dot^2 + y_dot^2)', quantities = 'r = sqrt(x^2 + y^2)', "// &
+                         "'s [m] half of it = r/2' / &o m = 1 /", "text", none, scene, system, &
+                         error)
+        call assertFalse(allocated(error), "two quantities")
+        if (allocated(error)) return
+        call new_column_event(event, "r = 0.5", system, error)
+        call assertEqual("where r = 0.5", trim(event%place))
+        call new_column_event(event, "s = 0.5 rising", system, error)
+        call assertEqual("where s = 0.5, rising; s: half of it", trim(event%place))
+    end subroutine what_events_are_called
 end module test_events

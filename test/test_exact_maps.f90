@@ -2,15 +2,18 @@ module test_exact_maps
     !! Three steps of a method on polynomial equations, against rational arithmetic: the numbers
     !! below are fractions of whole numbers, rounded to 34 digits, from a program that knows the
     !! formulae of the books and nothing else.
-    use funit, only: TestMethod, TestSuite, assertEqual
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_exact_motion, only: exact_motion_t, new_exact_motion
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
     use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -44,6 +47,8 @@ contains
         call suite%addTest(TestMethod("implicit_methods_are_their_exact_maps", &
                                       implicit_methods_are_their_exact_maps))
         call suite%addTest(TestMethod("boris_is_its_exact_map", boris_is_its_exact_map))
+        call suite%addTest(TestMethod("a_closed_form_refuses_impacts", &
+                                      a_closed_form_refuses_impacts))
     end function exact_maps_suite
 
     subroutine check_map(name, compensated, system, q_start, v_start, expected)
@@ -125,6 +130,22 @@ contains
         call check_map("boris", .false., system, [0.5_dp, -0.25_dp, 0.75_dp], &
                        [0.25_dp, 0.625_dp, -0.5_dp], expected)
     end subroutine boris_is_its_exact_map
+
+    subroutine a_closed_form_refuses_impacts()
+        !! The ball's closed form has them in itself; a run would look for them once more.
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: closed_form
+        type(exact_motion_t) :: motion
+        type(error_t), allocatable :: error
+
+        call new_system("bouncing_ball", system, error)
+        call system%closed_form(0.0_dp, [1.0_dp], [0.0_dp], closed_form)
+        call assertTrue(allocated(closed_form), "it has one")
+        call new_exact_motion(motion, closed_form)
+        call motion%prepare(system, error)
+        call assertTrue(allocated(error), "refused")
+        if (allocated(error)) call assertEqual("method", error%key)
+    end subroutine a_closed_form_refuses_impacts
 
     pure subroutine describe(self, d)
         !! Nobody asks.

@@ -3,8 +3,9 @@ module test_film
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_animation, only: animate_both, scene_film
     use lagrangia_changed_scene, only: make_own_scene
-    use lagrangia_channels, only: unpacked
+    use lagrangia_channels, only: channels_t, unpacked
     use lagrangia_errors, only: error_t
+    use lagrangia_film, only: film_json
     use lagrangia_frames, only: frames_t, record_frames
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
@@ -31,6 +32,8 @@ contains
         call suite%addTest(TestMethod("a_film_is_the_motion", a_film_is_the_motion))
         call suite%addTest(TestMethod("two_methods_in_one_film", two_methods_in_one_film))
         call suite%addTest(TestMethod("a_report_has_all_of_it", a_report_has_all_of_it))
+        call suite%addTest(TestMethod("a_distance_without_places", a_distance_without_places))
+        call suite%addTest(TestMethod("a_constant_series", a_constant_series))
     end function film_suite
 
     subroutine plan_scene(name, overrides, plan)
@@ -196,6 +199,43 @@ contains
         call assertTrue(remove_file(folder//"/a.html"), "one file")
         call assertTrue(remove_file(folder), "nothing else is left")
     end subroutine two_methods_in_one_film
+
+    subroutine a_distance_without_places()
+        !! Where nothing has a place, the distance is that of the coordinate that differs most,
+        !! whichever way.
+        type(run_plan_t) :: one, other
+        type(frames_t) :: frames(2)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: film
+        character(1) :: no_figure(0)
+        real(dp), allocatable :: distance(:)
+        real(dp) :: expected(101)
+
+        call plan_scene("double_pendulum_formulas", ["scene%dt=0.05 "], one)
+        call plan_scene("double_pendulum_formulas", ["scene%dt=0.025"], other)
+        if (anyExceptions()) return
+        call record_frames(one%settled, one%system, one%closed_form, 4.0_dp, 100, frames(1), error)
+        call record_frames(other%settled, other%system, other%closed_form, 4.0_dp, 100, frames(2), &
+                           error)
+        call film_json(one%system, no_figure, frames(1), frames(2), film, error)
+        call assertFalse(allocated(error), "the film")
+        distance = series(film, whole(film, "distance"))
+        call assertTrue(any(frames(1)%q < frames(2)%q), "below it somewhere")
+        expected = maxval(abs(frames(1)%q - frames(2)%q), 1)
+        call assertEqual(log10(max(expected, 1e-18_dp)), distance, tolerance=1e-4_dp, &
+                         message="the largest difference of an angle")
+    end subroutine a_distance_without_places
+
+    subroutine a_constant_series()
+        !! Each of its numbers is the lower bound, whichever way the page rounds.
+        type(channels_t) :: channels
+        integer :: which
+
+        call channels%add([2.5_dp, 2.5_dp], which)
+        call assertEqual(0, which)
+        call assertTrue(index(channels%json, '"lo": 2.5') > 0, channels%json)
+        call assertTrue(index(channels%json, '"d": "AAAAAA"') > 0, channels%json)
+    end subroutine a_constant_series
 
     subroutine a_report_has_all_of_it()
         !! Titles as they read, a row and a section a scene, the film's data, a picture whose names

@@ -32,6 +32,7 @@ contains
                                       narrow_panels_have_envelopes_sooner))
         call suite%addTest(TestMethod("what_stands_still_is_a_point", what_stands_still_is_a_point))
         call suite%addTest(TestMethod("thin_lines_have_a_legend", thin_lines_have_a_legend))
+        call suite%addTest(TestMethod("paths_of_several_files", paths_of_several_files))
     end function gnuplot_room_suite
 
     subroutine numbers_are_as_wide_as_written()
@@ -222,4 +223,30 @@ contains
         call assertEqual(2, occurrences(text, "NaN with lines lw 2 lc"), text)
         call assertEqual(2, occurrences(text, "title ""start "), text)
     end subroutine thin_lines_have_a_legend
+
+    subroutine paths_of_several_files()
+        !! The axes reach from the lowest to the highest of all, each curve is named by its file and
+        !! its column, and a file without the column of the x axis has none.
+        type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text
+
+        call new_panels(["x:y+z"], ["t", "x", "y", "z"], ["s", "m", "m", "m"], panels, error)
+        allocate (series(3))
+        call new_series(series(1), "a", "", ["t", "x", "y", "z"], ["s", "m", "m", "m"], &
+                        [range_of([0.0_dp, 1.0_dp]), range_of([-2.0_dp, 6.0_dp]), &
+                         range_of([0.0_dp, 3.0_dp]), range_of([1.0_dp, 2.0_dp])], "A")
+        call new_series(series(2), "b", "", ["t", "x", "y", "z"], ["s", "m", "m", "m"], &
+                        [range_of([0.0_dp, 1.0_dp]), range_of([2.0_dp, 30.0_dp]), &
+                         range_of([1.0_dp, 6.0_dp]), range_of([-2.0_dp, 2.0_dp])], "B")
+        call new_series(series(3), "c", "", ["t", "y"], ["s", "m"], &
+                        [range_of([0.0_dp, 1.0_dp]), range_of([-90.0_dp, 90.0_dp])], "C")
+        text = gnuplot_script("all.dat", series, "all", "", panels)
+        call assertTrue(index(text, "set xrange [-3.92:31.92]; set yrange [-3.0176:7.0176]") &
+                        > 0, text)
+        call assertTrue(index(text, "title ""A: y"" noenhanced") > 0, text)
+        call assertTrue(index(text, "title ""B: z"" noenhanced") > 0, text)
+        call assertEqual(0, index(text, "data3 using"), text)
+    end subroutine paths_of_several_files
 end module test_gnuplot_room

@@ -1,5 +1,6 @@
 module test_gsl
     !! Brent's root finder behind our door: right, or refused. GSL's Jacobi functions beside ours.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use, intrinsic :: iso_c_binding, only: c_double, c_int
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_elliptic, only: jacobi
@@ -21,6 +22,12 @@ module test_gsl
         procedure :: value => power_value
     end type power_t
 
+    type, extends(scalar_function_t) :: hole_t
+        !! \(x - 0.3\), but no number between 0.1 and 0.9.
+    contains
+        procedure :: value => value_beside_the_hole
+    end type hole_t
+
     interface
         function gsl_sf_elljac_e(u, m, sn, cn, dn) bind(c) result(status)
             import :: c_double, c_int
@@ -41,6 +48,7 @@ contains
         call suite%addTest(TestMethod("agrees_where_it_can", agrees_where_it_can))
         call suite%addTest(TestMethod("finds_roots", finds_roots))
         call suite%addTest(TestMethod("refuses_what_has_no_root", refuses_what_has_no_root))
+        call suite%addTest(TestMethod("a_function_with_a_hole", a_function_with_a_hole))
     end function gsl_suite
 
     subroutine agrees_where_it_can()
@@ -113,6 +121,19 @@ contains
         end subroutine try
     end subroutine refuses_what_has_no_root
 
+    subroutine a_function_with_a_hole()
+        !! GSL asks for a value where there is none, and says so.
+        type(hole_t) :: hole
+        type(error_t), allocatable :: error
+        real(dp) :: root
+
+        call brent_root(hole, 0.0_dp, 1.0_dp, root, error)
+        call assertTrue(allocated(error), "refused")
+        if (.not. allocated(error)) return
+        call assertEqual("root: GSL says: problem with user-supplied function", error%message)
+        call assertEqual(status_library, error%status)
+    end subroutine a_function_with_a_hole
+
     function power_value(self, x) result(y)
         class(power_t), intent(inout) :: self
         real(dp), intent(in) :: x
@@ -120,4 +141,13 @@ contains
 
         y = x**self%n - self%c
     end function power_value
+
+    function value_beside_the_hole(self, x) result(y)
+        class(hole_t), intent(inout) :: self
+        real(dp), intent(in) :: x
+        real(dp) :: y
+
+        y = x - 0.3_dp
+        if (x > 0.1_dp .and. x < 0.9_dp) y = ieee_value(y, ieee_quiet_nan)
+    end function value_beside_the_hole
 end module test_gsl

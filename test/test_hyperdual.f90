@@ -42,6 +42,8 @@ contains
         call suite%addTest(TestMethod("comparisons_see_the_value", comparisons_see_the_value))
         call suite%addTest(TestMethod("second_derivative_of_the_lagrangian", &
                                       second_derivative_of_the_lagrangian))
+        call suite%addTest(TestMethod("whole_exponents_beyond_the_integers", &
+                                      whole_exponents_beyond_the_integers))
     end function hyperdual_suite
 
     subroutine operators()
@@ -279,4 +281,14 @@ contains
                          tolerance=32.0_dp*epsilon(1.0_dp)*maxval(abs(expected)), &
                          message=expression)
     end subroutine check
+
+    subroutine whole_exponents_beyond_the_integers()
+        !! \((1 + 10^{-10})^{3\cdot 10^9} = e^{0.3}\) but for the rounding of the base, 8e-8 of it
+        !! to this power: 3e9 is whole, but no default integer.
+        type(hyperdual_t) :: power
+
+        power = hyperdual_t(1.0_dp + 1e-10_dp, 1.0_dp, 0.0_dp, 0.0_dp)**3e9_dp
+        call assertEqual(exp(0.3_dp), power%re, tolerance=1e-6_dp, message="value")
+        call assertEqual(3e9_dp*exp(0.3_dp), power%d1, tolerance=3e3_dp, message="slope")
+    end subroutine whole_exponents_beyond_the_integers
 end module test_hyperdual

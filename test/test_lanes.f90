@@ -1,8 +1,9 @@
 module test_lanes
     !! The accelerations of eight states at once are those of the eight states.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual
-    use lagrangia_catalogue, only: nth_system, system_names
+    use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: lanes, system_t
     use plain_system, only: plain_system_t
@@ -21,6 +22,8 @@ contains
         call suite%addTest(TestMethod("lanes_are_single_states", lanes_are_single_states, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel))
+        call suite%addTest(TestMethod("a_chain_too_long_for_the_stack", &
+                                      a_chain_too_long_for_the_stack))
     end function lanes_suite
 
     subroutine lanes_are_single_states()
@@ -84,4 +87,33 @@ contains
             call assertEqual(each, a(i, :), 0.0_dp, "lanes")
         end do
     end subroutine a_system_needs_no_kernel
+
+    subroutine a_chain_too_long_for_the_stack()
+        !! 32 bobs have their work arrays on the stack, 33 elsewhere.
+        class(system_t), allocatable :: chain
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:, :), v(:, :), a(:, :), each(:), x(:), x_dot(:)
+        real(dp) :: t(lanes)
+        integer :: bobs, i, j
+
+        call new_system("hanging_chain", chain, error)
+        t = 0.0_dp
+        do bobs = 32, 33
+            call chain%configure([real(bobs, dp), 1.0_dp, 1.0_dp, 9.81_dp], error)
+            allocate (q(lanes, bobs), v(lanes, bobs), a(lanes, bobs), each(bobs))
+            do j = 1, lanes
+                q(j, :) = [(sin(1.0_dp*i*j), i=1, bobs)]
+                v(j, :) = [(cos(2.0_dp*i*j), i=1, bobs)]
+            end do
+            call chain%accelerations_lanes(t, q, v, a)
+            do j = 1, lanes
+                x = q(j, :)
+                x_dot = v(j, :)
+                call chain%accelerations(0.0_dp, x, x_dot, each)
+                call assertEqual(each, a(j, :), tolerance=1e-12_dp*maxval(abs(each)), &
+                                 message="lanes")
+            end do
+            deallocate (q, v, a, each)
+        end do
+    end subroutine a_chain_too_long_for_the_stack
 end module test_lanes

@@ -4,7 +4,8 @@ module test_lapack_band
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_library
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: count_negative, lowest_mode, solve_band
+    use lagrangia_lapack, only: count_negative, least_squares, lowest_mode, solve_band
+    use lagrangia_null_space, only: null_space
     use lagrangia_richardson, only: extrapolated
     implicit none (type, external)
     private
@@ -26,6 +27,8 @@ contains
         call suite%addTest(TestMethod("refuses_bad_tridiagonals", refuses_bad_tridiagonals))
         call suite%addTest(TestMethod("finds_the_lowest_mode", finds_the_lowest_mode))
         call suite%addTest(TestMethod("extrapolates_even_powers", extrapolates_even_powers))
+        call suite%addTest(TestMethod("nothing_half_or_too_much_to_solve", &
+                                      nothing_half_or_too_much_to_solve))
     end function lapack_band_suite
 
     subroutine solves_two_diagonals_each_side()
@@ -156,4 +159,44 @@ contains
                         "abs(extrapolated(values(:3)) - 3.0) > 1e-6")
         call assertEqual(values(1), extrapolated(values(:1)), 0.0_dp)
     end subroutine extrapolates_even_powers
+
+    subroutine nothing_half_or_too_much_to_solve()
+        !! No equations at all are solved; NaN on one side, a column of zeros, a vector that is too
+        !! long are refused.
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: basis(:, :)
+        real(dp) :: none(0), nothing(0), one(1), two(2), nan, value
+
+        nan = ieee_value(1.0_dp, ieee_quiet_nan)
+        call solve_band(reshape([real(dp) ::], [1, 0]), none, nothing, error)
+        call assertFalse(allocated(error), "a band of no row")
+        call least_squares(reshape([real(dp) ::], [0, 0]), none, nothing, error)
+        call assertFalse(allocated(error), "no squares")
+        call least_squares(reshape([1.0_dp, 2.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 3.0_dp], [3, 2]), &
+                           [1.0_dp, nan, 2.0_dp], two, error)
+        call expect("least squares: not every coefficient is finite")
+        call least_squares(reshape([1.0_dp, nan, 0.0_dp, 1.0_dp, 0.0_dp, 3.0_dp], [3, 2]), &
+                           [1.0_dp, 1.0_dp, 2.0_dp], two, error)
+        call expect("least squares: not every coefficient is finite")
+        call least_squares(reshape([1.0_dp, 2.0_dp, 3.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [3, 2]), &
+                           [1.0_dp, 1.0_dp, 2.0_dp], two, error)
+        call expect("least squares: the columns depend on each other")
+        call assertEqual([0.0_dp, 0.0_dp], two, tolerance=0.0_dp, message="nothing is found")
+        call lowest_mode([2.0_dp], none, value, two, error)
+        call expect("tridiagonal matrix: shapes do not match")
+        call lowest_mode(none, none, value, nothing, error)
+        call expect("tridiagonal matrix: shapes do not match")
+        call lowest_mode([2.0_dp], none, value, one, error)
+        call assertFalse(allocated(error), "one row is enough")
+        call assertEqual(2.0_dp, value, tolerance=1e-15_dp, message="its value")
+        call null_space(reshape([real(dp) ::], [2, 0]), basis, error)
+        call expect("null space: a matrix needs as many rows as columns")
+    contains
+        subroutine expect(message)
+            character(*), intent(in) :: message
+
+            call assertTrue(allocated(error), "refused: "//message)
+            if (allocated(error)) call assertEqual(message, error%message)
+        end subroutine expect
+    end subroutine nothing_half_or_too_much_to_solve
 end module test_lapack_band

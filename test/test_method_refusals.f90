@@ -3,8 +3,10 @@ module test_method_refusals
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
     use lagrangia_errors, only: error_t
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: integrator_t, not_prepared
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator, prepare_integrator
+    use lagrangia_pendulum, only: pendulum_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -18,6 +20,8 @@ contains
 
         suite = TestSuite("method_refusals")
         call suite%addTest(TestMethod("refusals_name_what_works", refusals_name_what_works))
+        call suite%addTest(TestMethod("nothing_is_prepared_for_no_coordinates", &
+                                      nothing_is_prepared_for_no_coordinates))
     end function method_refusals_suite
 
     subroutine refusals_name_what_works()
@@ -77,4 +81,17 @@ contains
         call assertEqual(1, index(error%message, message), error%message)
         call assertEqual(key, error%key)
     end subroutine check_absence
+
+    subroutine nothing_is_prepared_for_no_coordinates()
+        !! A method that was never prepared, and a system that was never configured: both have
+        !! none.
+        class(integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        type(pendulum_t) :: pendulum
+        real(dp) :: q(0), v(0)
+
+        call new_integrator("gauss16", method, error)
+        call method%advance(pendulum, 0.0_dp, 0.1_dp, 0_i8, 1_i8, q, v)
+        call assertEqual(not_prepared, trim(method%failure_reason))
+    end subroutine nothing_is_prepared_for_no_coordinates
 end module test_method_refusals

@@ -30,6 +30,8 @@ contains
         call suite%addTest(TestMethod("residuals_of_wrong_modes_are_their_size", &
                                       residuals_of_wrong_modes_are_their_size))
         call suite%addTest(TestMethod("bad_matrices_give_nothing", bad_matrices_give_nothing))
+        call suite%addTest(TestMethod("elements_are_looked_at_on_both_sides", &
+                                      elements_are_looked_at_on_both_sides))
     end function normal_modes_suite
 
     pure function chain(n, walls) result(k)
@@ -322,4 +324,29 @@ contains
         call assertTrue(all(transfer(stiffness, [0]) == transfer(k, [0])) .and. &
                         all(transfer(inertia, [0]) == transfer(m, [0])), "K and M stay")
     end subroutine refused
+
+    subroutine elements_are_looked_at_on_both_sides()
+        !! NaN above or below the diagonal; and what is negative may be unsymmetric by rounding, as
+        !! what is positive.
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: omega2(:), modes(:, :)
+        real(dp), parameter :: unit(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], &
+                                                 [2, 2])
+        real(dp) :: nan
+
+        nan = ieee_value(1.0_dp, ieee_quiet_nan)
+        call normal_modes(reshape([2.0_dp, 1.0_dp, nan, 2.0_dp], [2, 2]), &
+                          unit, omega2, modes, error)
+        call assertTrue(allocated(error), "above")
+        if (allocated(error)) call assertEqual("K(1, 2) is not finite", error%message)
+        call normal_modes(reshape([2.0_dp, nan, 1.0_dp, 2.0_dp], [2, 2]), &
+                          unit, omega2, modes, error)
+        call assertTrue(allocated(error), "below")
+        if (allocated(error)) call assertEqual("K(1, 2) is not finite", error%message)
+        call normal_modes(reshape([0.0_dp, -1.0_dp, -1.0_dp - epsilon(nan), 0.0_dp], [2, 2]), &
+                          unit, omega2, modes, error)
+        call assertFalse(allocated(error), "rounding of a negative element")
+        if (allocated(error)) return
+        call assertEqual([-1.0_dp, 1.0_dp], omega2, tolerance=1e-14_dp, message="its modes")
+    end subroutine elements_are_looked_at_on_both_sides
 end module test_normal_modes

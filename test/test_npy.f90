@@ -20,6 +20,7 @@ contains
         call suite%addTest(TestMethod("the_rows_follow", the_rows_follow))
         call suite%addTest(TestMethod("too_many_columns_are_refused", &
                                       too_many_columns_are_refused))
+        call suite%addTest(TestMethod("bytes_that_are_no_letters", bytes_that_are_no_letters))
     end function npy_suite
 
     subroutine the_header_is_numpys()
@@ -118,4 +119,23 @@ contains
                          error%message)
         call file%file%abandon()
     end subroutine too_many_columns_are_refused
+
+    subroutine bytes_that_are_no_letters()
+        !! A byte that begins no letter of UTF-8 stands for itself, as in Latin-1.
+        type(npy_table_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path, bytes
+
+        path = new_folder("npy")//"/a.npy"
+        call begin(file, path, [character(3) :: "t", "x"//char(255)], error)
+        call assertFalse(allocated(error), "no error: bytes that are no letters")
+        call file%row([1.0_dp, 2.0_dp])
+        call file%finish("", error)
+        if (.not. allocated(error)) call file%file%commit(error)
+        call assertFalse(allocated(error), "no error: bytes that are no letters")
+        if (anyExceptions()) return
+        bytes = contents(path)
+        call assertTrue(index(bytes, "('x\U000000FF', '<f8')") > 0, bytes)
+        call assertTrue(remove_file(path), "it was there: "//path)
+    end subroutine bytes_that_are_no_letters
 end module test_npy

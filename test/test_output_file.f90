@@ -3,11 +3,13 @@ module test_output_file
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_chmod
-    use lagrangia_data_files, only: new_table
+    use lagrangia_data_files, only: data_path, new_table, script_path
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: facts_t, look_at, plain_path, same_file
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_places, only: places_t
+    use lagrangia_scene_claims, only: claim_table
     use lagrangia_table, only: table_t
     use test_scratch, only: c_link, c_symlink, contents, new_folder, remove_file, write_file
     implicit none (type, external)
@@ -37,6 +39,8 @@ contains
         call suite%addTest(TestMethod("a_row_reaches_the_disk", a_row_reaches_the_disk))
         call suite%addTest(TestMethod("a_name_means_nothing_to_others", &
                                       a_name_means_nothing_to_others))
+        call suite%addTest(TestMethod("paths_are_put_together", paths_are_put_together))
+        call suite%addTest(TestMethod("a_scene_of_somebody_is_kept", a_scene_of_somebody_is_kept))
     end function output_file_suite
 
     subroutine commit_gives_the_file_its_name()
@@ -256,4 +260,36 @@ contains
         call assertTrue(remove_file(folder//"/soft"), "it was there: "//folder//"/soft")
         call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine same_file_sees_through_names
+
+    subroutine paths_are_put_together()
+        !! No slash twice; the dot of a folder is no ending of the file in it.
+        call assertEqual("a/b.dat", data_path("a/", "b", "text"))
+        call assertEqual("a/b.dat", data_path("a", "b", "text"))
+        call assertEqual("a/b.txt", data_path("a/", "b.txt", "csv"))
+        call assertEqual("a.b/c.gp", script_path("a.b/c"))
+        call assertEqual("a.dat/c.gp", script_path("a.dat/c"))
+        call assertEqual("c.gp", script_path("c"))
+        call assertEqual("a.b/c.gp", script_path("a.b/c.dat"))
+    end subroutine paths_are_put_together
+
+    subroutine a_scene_of_somebody_is_kept()
+        !! The scene is written beside a csv file; what lies there is replaced only if it is ours.
+        character(:), allocatable :: path
+
+        path = new_folder("kept")//"/kept.csv"
+        call claim("! lagrangia 1.0: a scene", .false.)
+        call claim("&scene system = 'pendulum' /", .true.)
+    contains
+        subroutine claim(first, refused)
+            character(*), intent(in) :: first  !! line of the file that is there
+            logical, intent(in) :: refused
+            type(places_t) :: places
+            type(error_t), allocatable :: error
+
+            call write_file(path//".nml", first//new_line("a"))
+            call claim_table(path, "data", "pendulum", places, error)
+            call assertTrue(allocated(error) .eqv. refused, first)
+            call assertTrue(remove_file(path//".nml"), "it was there: "//path//".nml")
+        end subroutine claim
+    end subroutine a_scene_of_somebody_is_kept
 end module test_output_file

@@ -5,20 +5,27 @@ module test_own_system
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertLessThan, assertTrue
     use lagrangia_audit, only: audit_system
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, quantity
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: default_values, system_t
-    use own_systems, only: own_double_t, own_pendulum_t, own_pivot_t, own_skin_t, own_slope_t
+    use own_systems, only: own_double_t, own_named_t, own_pendulum_t, own_pivot_t, own_skin_t, &
+                           own_slope_t
     use random_states, only: draw_parameters, draw_state, restart_random
     use test_moduli, only: moduli_suite
     implicit none (type, external)
     private
     public :: own_system_suite
+
+    type, extends(own_pendulum_t) :: sourced_t
+        !! From a book, with an equilibrium of too many numbers.
+    contains
+        procedure :: outline => sourced_outline
+    end type sourced_t
 
 contains
 
@@ -39,6 +46,7 @@ contains
         call suite%addTest(TestMethod("descriptions_are_complete", descriptions_are_complete))
         call suite%addTest(TestMethod("audits_hold", audits_hold))
         call suite%addTest(TestMethod("modes_are_found", modes_are_found))
+        call suite%addTest(TestMethod("what_an_outline_says_is_kept", what_an_outline_says_is_kept))
         call suite%addTest(moduli_suite())
     end function own_system_suite
 
@@ -250,4 +258,36 @@ contains
         if (allocated(error)) return
         call assertEqual(9.81_dp/1.2_dp, modes%omega2(1), 1e-14_dp)
     end subroutine modes_are_found
+
+    subroutine what_an_outline_says_is_kept()
+        !! Its source; but no equilibrium of another size. Of two quantities one has a formula, and
+        !! the audit reads it.
+        type(sourced_t) :: sourced
+        type(own_named_t) :: named
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(ledger_t) :: audit
+
+        call sourced%configure([1.0_dp, 1.0_dp, 1.0_dp], error)
+        call sourced%describe(d)
+        call assertEqual("a book", trim(d%source))
+        call assertEqual([0.0_dp], likely_equilibrium(sourced), tolerance=0.0_dp, &
+                         message="two values for one coordinate")
+        named%more = [quantity("one", "rad", "the angle", "theta"), &
+                      quantity("two", "rad", "another")]
+        call named%configure([1.0_dp, 1.0_dp, 1.0_dp], error)
+        call audit_system(named, audit)
+        call assertTrue(audit%row_of("one as printed") > 0, &
+                        "a formula among the quantities is read")
+    end subroutine what_an_outline_says_is_kept
+
+    pure subroutine sourced_outline(self, d)
+        !! The pendulum's, and more.
+        class(sourced_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        call self%own_pendulum_t%outline(d)
+        d%source = "a book"
+        d%equilibrium = [1.0_dp, 2.0_dp]
+    end subroutine sourced_outline
 end module test_own_system

@@ -1,8 +1,11 @@
 module test_random_draws
     !! Numbers at random: those of one seed, and of many.
     use funit, only: TestMethod, TestSuite, assertEqual
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
+    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: random_draws_suite
@@ -16,6 +19,7 @@ contains
         suite = TestSuite("random_draws")
         call suite%addTest(TestMethod("numbers_of_a_seed", numbers_of_a_seed))
         call suite%addTest(TestMethod("seeds_are_independent", seeds_are_independent))
+        call suite%addTest(TestMethod("fixed_values_need_both", fixed_values_need_both))
     end function random_draws_suite
 
     subroutine check_numbers(x)
@@ -58,4 +62,24 @@ contains
         end do
         call check_numbers(x)
     end subroutine seeds_are_independent
+
+    subroutine fixed_values_need_both()
+        !! Which are fixed, and at what; one of these alone changes nothing.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(random_t) :: random
+        real(dp), allocatable :: drawn(:), values(:)
+        logical, allocatable :: all_of_them(:)
+
+        call new_system("pendulum", system, error)
+        call random%start(1)
+        call random%parameters(system, .false., drawn, error)
+        allocate (all_of_them(size(drawn)), source=.true.)
+        call random%start(1)
+        call random%parameters(system, .false., values, error, fixed=all_of_them)
+        call assertEqual(drawn, values, tolerance=0.0_dp, message="which, but not at what")
+        call random%start(1)
+        call random%parameters(system, .false., values, error, given=0.0_dp*drawn)
+        call assertEqual(drawn, values, tolerance=0.0_dp, message="at what, but not which")
+    end subroutine fixed_values_need_both
 end module test_random_draws

@@ -4,7 +4,7 @@ module test_register
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, nth_system, register_system, system_names
     use lagrangia_command_line, only: word_t
-    use lagrangia_description, only: conserved, description_t, name_length, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, name_length, quantity
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
@@ -17,6 +17,14 @@ module test_register
     private
     public :: register_suite
 
+    type, extends(plain_system_t) :: gappy_t
+        !! Its description leaves a list out.
+        character(10) :: missing = ""
+        integer :: named = 2  !! of its coordinates
+    contains
+        procedure :: describe => describe_gappy
+    end type gappy_t
+
 contains
 
     function register_suite() result(suite)
@@ -28,6 +36,7 @@ contains
         call suite%addTest(TestMethod("taken_names_are_refused", taken_names_are_refused))
         call suite%addTest(TestMethod("malformed_names_are_refused", malformed_names_are_refused))
         call suite%addTest(TestMethod("gaps_are_refused", gaps_are_refused))
+        call suite%addTest(TestMethod("lists_left_out_are_refused", lists_left_out_are_refused))
     end function register_suite
 
     subroutine it_joins_the_others()
@@ -69,6 +78,10 @@ contains
         call audit_system(system, audit)
         call assertEqual(12, size(audit%rows), message="claims")
         call assertEqual(0, audit%broken(), "claims that do not hold")
+        call nth_system(0, system)
+        call assertFalse(allocated(system), "none before the first")
+        call nth_system(size(after) + 1, system)
+        call assertFalse(allocated(system), "none behind the last")
         call refused(own, "system 'own_pendulum': there is a system of that name: give yours "// &
                      "another one")
     end subroutine it_joins_the_others
@@ -138,4 +151,33 @@ contains
         call refused(own_named_t(mass=-1.0_dp), "system 'own': own: m = -1.0 is not allowed: "// &
                      "greater than 0.0")
     end subroutine gaps_are_refused
+
+    subroutine lists_left_out_are_refused()
+        !! Each of five, and a coordinate.
+        character(10), parameter :: lists(5) = [character(10) :: "notes", "equations", "points", &
+                                               "quantities", "parameters"]
+        integer :: i
+
+        do i = 1, size(lists)
+            call refused(gappy_t(missing=lists(i)), "system 'gappy': its description leaves "// &
+                         "out '"//trim(lists(i))//"': allocate it, empty if there are none")
+        end do
+        call refused(gappy_t(named=0), "system 'gappy': its description has no coordinates")
+        call refused(gappy_t(named=1), "system 'gappy': ndof = 2, but it describes 1 coordinate")
+    end subroutine lists_left_out_are_refused
+
+    pure subroutine describe_gappy(self, d)
+        !! All lists are empty, but `missing`.
+        class(gappy_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "gappy"
+        d%coordinates = [coordinate("x", "m", "one"), coordinate("y", "m", "the other")]
+        d%coordinates = d%coordinates(:self%named)
+        if (self%missing /= "notes") allocate (d%notes(0))
+        if (self%missing /= "equations") allocate (d%equations(0))
+        if (self%missing /= "points") allocate (d%points(0))
+        if (self%missing /= "quantities") allocate (d%quantities(0))
+        if (self%missing /= "parameters") allocate (d%parameters(0))
+    end subroutine describe_gappy
 end module test_register

@@ -4,6 +4,7 @@ module test_run
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_atwood, only: atwood_t
+    use lagrangia_catalogue, only: new_system
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t, status_numbers
@@ -13,7 +14,7 @@ module test_run
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: run
     use lagrangia_system, only: system_t
-    use lagrangia_time_grid, only: new_time_grid, time_grid_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use run_doubles, only: exploding_t, watcher_t
     implicit none (type, external)
     private
@@ -40,6 +41,7 @@ contains
         call suite%addTest(TestMethod("an_observer_may_stop_the_run", an_observer_may_stop_the_run))
         call suite%addTest(TestMethod("a_method_that_refuses_does_not_run", &
                                       a_method_that_refuses_does_not_run))
+        call suite%addTest(TestMethod("a_grid_of_samples_is_refused", a_grid_of_samples_is_refused))
     end function run_suite
 
     subroutine perform(system, name, plan, watcher, q, v, error, evaluations)
@@ -288,4 +290,26 @@ contains
         call assertEqual(0, watcher%samples, "samples shown")
         call assertEqual(1.0_dp, q, message="q is not touched")
     end subroutine a_method_that_refuses_does_not_run
+
+    subroutine a_grid_of_samples_is_refused()
+        !! A run by steps wants steps.
+        class(system_t), allocatable :: system
+        class(integrator_t), allocatable :: method
+        type(observer_box_t) :: nobody(0)
+        type(time_grid_t) :: grid
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+
+        call new_system("pendulum", system, error)
+        call new_integrator("rk4", method, error)
+        call new_sample_times(grid, 0.0_dp, 1.0_dp, 4_i8, error)
+        call assertFalse(allocated(error), "a grid of samples")
+        grid%every = 1
+        q = 0.1_dp
+        v = 0.0_dp
+        call run(system, method, grid, nobody, q, v, error)
+        call assertTrue(allocated(error), "refused")
+        if (allocated(error)) call assertEqual("the time grid is not one of new_time_grid", &
+                                               error%message)
+    end subroutine a_grid_of_samples_is_refused
 end module test_run

@@ -53,6 +53,8 @@ contains
         call suite%addTest(TestMethod("equilibria_to_their_last_digit", &
                                       equilibria_to_their_last_digit))
         call suite%addTest(TestMethod("no_term_hides_another", no_term_hides_another))
+        call suite%addTest(TestMethod("typical_sizes_are_those_of_near_parameters", &
+                                      typical_sizes_are_those_of_near_parameters))
     end function sizes_of_motions_suite
 
     subroutine read_typed(rest, system, error)
@@ -159,4 +161,36 @@ contains
         call assertEqual(verdict, result%of(1)%verdict, statement)
         call assertTrue(index(result%of(1)%remark, words) > 0, result%of(1)%remark)
     end subroutine judged
+
+    subroutine typical_sizes_are_those_of_near_parameters()
+        !! Up to four times, or a quarter, of each parameter of the scene.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+        type(word_t) :: none(0)
+
+        call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 1e-6 / &lagrangian "// &
+                         "coordinates = 'x', parameters = 'm', 'k', "// &
+                         "L = 'm/2 x_dot^2 - k/2 x^2' / &o m = 1, k = 1 /", "text", none, scene, &
+                         system, error)
+        call assertFalse(allocated(error), "an oscillator")
+        if (allocated(error)) return
+        call judge([1.0_dp, 1.0_dp], .true.)
+        call judge([2.0_dp, 2.0_dp], .true.)
+        call judge([1.0_dp, 8.0_dp], .false.)
+        call judge([0.1_dp, 1.0_dp], .false.)
+        call judge([1.0_dp, 1.0_dp], .true.)
+    contains
+        subroutine judge(values, known)
+            real(dp), intent(in) :: values(:)
+            logical, intent(in) :: known
+            type(description_t) :: d
+
+            call system%configure(values, error)
+            call system%describe(d)
+            call assertTrue(allocated(d%typical_places) .eqv. known, "typical places")
+            if (known) call assertEqual(0.5_dp**20, d%typical_places(1), tolerance=0.0_dp, &
+                                        message="a power of two")
+        end subroutine judge
+    end subroutine typical_sizes_are_those_of_near_parameters
 end module test_sizes_of_motions

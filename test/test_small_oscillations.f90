@@ -3,13 +3,18 @@ module test_small_oscillations
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
     use lagrangia_catalogue, only: new_system, nth_system
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_description, only: description_t
     use lagrangia_eigen, only: normal_modes, residual_ratio
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, is_zero_mode, &
                                             modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use random_states, only: draw_parameters, restart_random
     use stated_text, only: is_said
     implicit none (type, external)
@@ -17,6 +22,12 @@ module test_small_oscillations
     public :: small_oscillations_suite
 
     integer, parameter :: quad = selected_real_kind(30)
+
+    type, extends(charged_particle_t) :: wrong_turn_t
+        !! G of the page is twice what it is.
+    contains
+        procedure :: linearise => linearise_wrongly
+    end type wrong_turn_t
 
 contains
 
@@ -34,6 +45,8 @@ contains
         call suite%addTest(TestMethod("hilbert_like_is_well_solved", hilbert_like_is_well_solved))
         call suite%addTest(TestMethod("bad_matrices_are_refused", bad_matrices_are_refused))
         call suite%addTest(TestMethod("bad_points_are_refused", bad_points_are_refused))
+        call suite%addTest(TestMethod("a_wrong_turn_is_seen", a_wrong_turn_is_seen))
+        call suite%addTest(TestMethod("many_coordinates_are_divided", many_coordinates_are_divided))
     end function small_oscillations_suite
 
     subroutine solve(name, values, at, modes)
@@ -306,4 +319,54 @@ contains
         call assertTrue(is_said(error%message, message), message=error%message)
         if (.not. present(parameters)) call assertEqual(2, error%status)
     end subroutine no_modes
+
+    subroutine a_wrong_turn_is_seen()
+        !! M and K are right, G is not: the difference is as large as G.
+        type(wrong_turn_t) :: charge
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+
+        call charge%configure([1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
+                               1.0_dp], error)
+        call find_modes(charge, [0.0_dp, 0.0_dp, 0.0_dp], .false., modes, error)
+        call assertFalse(allocated(error), "a charge in a trap")
+        if (allocated(error)) return
+        call assertEqual(1.0_dp, modes%difference, tolerance=1e-14_dp)
+    end subroutine a_wrong_turn_is_seen
+
+    subroutine many_coordinates_are_divided()
+        !! Beyond 32 LAPACK divides and conquers.
+        call judge("32", "dsygv")
+        call judge("33", "dsygvd")
+    contains
+        subroutine judge(n, method)
+            character(*), intent(in) :: n, method
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(scene_t) :: scene
+            type(word_t) :: none(0)
+            type(modes_t) :: modes
+            integer :: i
+
+            call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = "//n//"*0.1 / "// &
+                             "&lagrangian coordinates = 'x_1 .. x_"//n//"', parameters = 'm', "// &
+                             "T = 'sum(i, 1, "//n//", m/2 x_i_dot^2)', V = 'sum(i, 1, "//n// &
+                             ", m/2 x_i^2)' / &o m = 1 /", "text", none, scene, system, error)
+            call assertFalse(allocated(error), n//" masses on springs")
+            if (allocated(error)) return
+            call find_modes(system, [(0.0_dp, i=1, system%ndof)], .false., modes, error)
+            call assertFalse(allocated(error), n//" modes")
+            if (.not. allocated(error)) call assertEqual(method, trim(modes%method))
+        end subroutine judge
+    end subroutine many_coordinates_are_divided
+
+    pure subroutine linearise_wrongly(self, q, analytic)
+        !! M and K as they are.
+        class(wrong_turn_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: analytic
+
+        call self%charged_particle_t%linearise(q, analytic)
+        analytic%gyroscopic = 2.0_dp*analytic%gyroscopic
+    end subroutine linearise_wrongly
 end module test_small_oscillations

@@ -23,6 +23,7 @@ contains
         call suite%addTest(TestMethod("constraints_hold_at_the_start", &
                                       constraints_hold_at_the_start))
         call suite%addTest(TestMethod("refusals", refusals))
+        call suite%addTest(TestMethod("no_events_are_none", no_events_are_none))
     end function solve_suite
 
     subroutine oscillator(system)
@@ -201,4 +202,17 @@ contains
             call assertFalse(allocated(q), "nothing is given")
         end subroutine refused
     end subroutine refusals
+
+    subroutine no_events_are_none()
+        !! An empty list of events is as good as none.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:, :), v(:, :)
+
+        call oscillator(system)
+        call solve(system, "gauss16", [0.0_dp, 1.0_dp], [0.0_dp], [1.0_dp], q, v, error, &
+                   events=[character(9) ::])
+        call assertFalse(allocated(error), "accepted")
+        if (.not. allocated(error)) call assertEqual(sin(1.0_dp), q(1, 2), 1e-8_dp, "x")
+    end subroutine no_events_are_none
 end module test_solve

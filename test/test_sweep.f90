@@ -1,7 +1,7 @@
 module test_sweep
     !! Many trajectories of one scene: what is kept, lanes, processes, failures, files.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp, i8
@@ -48,6 +48,7 @@ contains
         call suite%addTest(TestMethod("lyapunov_exponents_that_are_known", &
                                       lyapunov_exponents_that_are_known))
         call suite%addTest(TestMethod("lyapunov_exponent_of_ueda", lyapunov_exponent_of_ueda))
+        call suite%addTest(TestMethod("nothing_or_too_much_to_keep", nothing_or_too_much_to_keep))
     end function sweep_suite
 
     subroutine compute(text, over, keep, threads, result, error, sweep)
@@ -116,6 +117,27 @@ contains
         call assertTrue(allocated(error), "nothing after the end")
         if (allocated(error)) call assertEqual("after", error%key, "the key to blame")
     end subroutine bad_sweeps_are_refused
+
+    subroutine nothing_or_too_much_to_keep()
+        !! By a call, for the program refuses it before.
+        type(error_t), allocatable :: error
+        type(sweep_t) :: sweep
+        character(0) :: nothing(0)
+
+        call make(pendulum, ["theta = 0:1:3"], nothing, sweep, error)
+        call assertTrue(allocated(error), "nothing is kept")
+        if (anyExceptions()) return
+        call assertEqual("keep", error%key)
+        call assertEqual("nothing is kept of a trajectory", error%message)
+        call make(pendulum, ["theta = 0:1:3"], ["first theta = 0."//repeat("0", 103)//"5"], &
+                  sweep, error)
+        call assertFalse(allocated(error), "120 characters at most")
+        call make(pendulum, ["theta = 0:1:3"], ["first theta = 0."//repeat("0", 104)//"5"], &
+                  sweep, error)
+        call assertTrue(allocated(error), "121 characters")
+        if (anyExceptions()) return
+        call assertEqual("a text of at most 120 characters is needed", error%message)
+    end subroutine nothing_or_too_much_to_keep
 
     subroutine periods_are_those_of_closed_form()
         !! T(amplitude) of the pendulum: measured, and by the elliptic integral.

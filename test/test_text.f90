@@ -32,6 +32,9 @@ contains
         call suite%addTest(TestMethod("reals_look_short", reals_look_short))
         call suite%addTest(TestMethod("reals_read_back", reals_read_back, setUp=restart_random))
         call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal))
+        call suite%addTest(TestMethod("the_longer_abbreviation_is_taken", &
+                                      the_longer_abbreviation_is_taken))
+        call suite%addTest(TestMethod("characters_are_not_split", characters_are_not_split))
     end function text_suite
 
     subroutine lower_leaves_other_bytes()
@@ -200,4 +203,24 @@ contains
         call assertEqual("9223372036854775807", to_text(huge(1_i8)))
         call assertEqual("-9223372036854775808", to_text(-huge(1_i8) - 1_i8))
     end subroutine integers_in_decimal
+
+    subroutine the_longer_abbreviation_is_taken()
+        !! In any order.
+        call assertEqual("m1", abbreviation("mass1", [character(2) :: "m1", "m"]))
+        call assertEqual("m1", abbreviation("mass1", [character(2) :: "m", "m1"]))
+        call assertEqual("m", abbreviation("mass", [character(2) :: "", "m"]))
+    end subroutine the_longer_abbreviation_is_taken
+
+    subroutine characters_are_not_split()
+        !! Of two and of three bytes, wherever the cut falls; and bytes that continue nothing have
+        !! no end.
+        call assertEqual(repeat("é", 7)//"..."//repeat("é", 16), shortened(repeat("é", 60), 50))
+        call assertEqual("x"//repeat("é", 7)//"..."//repeat("é", 16), &
+                         shortened("x"//repeat("é", 60), 50))
+        call assertEqual(repeat("€", 5)//"..."//repeat("€", 10), &
+                         shortened(repeat("€", 60), 49))
+        call assertEqual(repeat("€", 5)//"..."//repeat("€", 10), &
+                         shortened(repeat("€", 60), 51))
+        call assertEqual("..."//char(130), shortened(repeat(char(130), 60), 50))
+    end subroutine characters_are_not_split
 end module test_text

@@ -3,7 +3,7 @@ module test_time_grid
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
+    use lagrangia_time_grid, only: new_given_times, new_sample_times, new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: time_grid_suite
@@ -24,6 +24,7 @@ contains
                                       steps_that_stand_still_are_refused))
         call suite%addTest(TestMethod("samples_lie_four_doubles_apart", &
                                       samples_lie_four_doubles_apart))
+        call suite%addTest(TestMethod("given_times_rise", given_times_rise))
     end function time_grid_suite
 
     subroutine steps_that_divide_are_counted()
@@ -99,6 +100,22 @@ contains
         if (.not. allocated(error)) return
         call assertEqual("must be at least 1, not 0", error%message)
     end subroutine samples_lie_four_doubles_apart
+
+    subroutine given_times_rise()
+        !! Each later than the one before, not the last only; the last sample is the last time.
+        type(time_grid_t) :: grid
+        type(error_t), allocatable :: error
+
+        call new_given_times(grid, [0.0_dp, 2.0_dp, 1.0_dp, 3.0_dp], error)
+        call assertTrue(allocated(error), "one step back")
+        if (allocated(error)) call assertEqual("each time must be later than the one before", &
+                                               error%message)
+        call new_given_times(grid, [0.0_dp, 0.0_dp, 1.0_dp], error)
+        call assertTrue(allocated(error), "twice the same")
+        call new_given_times(grid, [0.0_dp, 1.0_dp, 3.0_dp], error)
+        call assertFalse(allocated(error), "rising")
+        call assertEqual(3.0_dp, grid%sample_time(2_i8), message="the last")
+    end subroutine given_times_rise
 
     subroutine check_no_plan(t0, dt, duration, message)
         !! Refused in words that begin so, and `dt` is to blame.

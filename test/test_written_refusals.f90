@@ -172,9 +172,8 @@ contains
                      "t = 0.0, q = 1.5, 0.5, v = 0.0, 0.0: a division by zero, an overflow, or "// &
                      "a root or logarithm of such a number; start elsewhere")
         call refused(names//"T = 'm/2 (r_dot^2 + theta_dot^2)' V = 'sqrt(r - 1.5)'", &
-                     "a.nml:2:105: &lagrangian: V = 'sqrt(r - 1.5)': is no finite number at "// &
-                     "t = 0.0, q = 1.5, 0.5, v = 0.0, 0.0: a division by zero, an overflow, or "// &
-                     "a root or logarithm of such a number; start elsewhere")
+                     "a.nml:2:105: &lagrangian: V = 'sqrt(r - 1.5)': has no finite derivatives "// &
+                     "by r at t = 0.0, q = 1.5, 0.5, v = 0.0, 0.0; start elsewhere")
     end subroutine starts_without_motion
 
     subroutine places_and_equilibria()

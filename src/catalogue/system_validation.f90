@@ -1,6 +1,7 @@
 module lagrangia_system_validation
     !! What a system from outside must bring along before it may join the catalogue.
     use lagrangia_columns, only: column_names
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_motion_check, only: check_motions
@@ -42,8 +43,8 @@ contains
             if (allocated(error)) exit check
             call system%describe(d)
             if (system%ndof /= size(d%coordinates)) then
-                call fail(error, "ndof = "//to_text(system%ndof)//", but there are "// &
-                          to_text(size(d%coordinates))//" coordinates")
+                call fail(error, "ndof = "//to_text(system%ndof)//", but it describes "// &
+                          counted(size(d%coordinates), "coordinate"))
                 exit check
             end if
             call check_names(system, d, error)

@@ -58,17 +58,14 @@ contains
 
         width = max(60, min(80, most))
         text = ""
-        page = 0
+        page = findloc(pages%name == commands(which)%name, .true., 1)
         if (which > 1) then
             call add("usage: lagrangia "//trim(commands(which)%name)//" "// &
                      trim(commands(which)%arguments)//" [options]")
             call add("")
             call add_item("", trim(commands(which)%meaning), 2)
-            page = findloc(pages%name == commands(which)%name, .true., 1)
-            if (page > 0) then
-                call add("")
-                call add_item("", trim(pages(page)%purpose), 2)
-            end if
+            call add("")
+            call add_item("", trim(pages(page)%purpose), 2)
             call add_values(which)
         else
             call add_item("", "lagrangia: the systems of a classical-mechanics course, run and "// &
@@ -91,13 +88,11 @@ contains
                           meaning_with_values(options(i), trim(commands(which)%name)), indentation)
         end do
         if (which > 1) then
-            if (page > 0) then
-                call add("")
-                call add("examples:")
-                do i = 1, size(pages(page)%examples)
-                    if (pages(page)%examples(i) /= "") call add("  "//pages(page)%examples(i))
-                end do
-            end if
+            call add("")
+            call add("examples:")
+            do i = 1, size(pages(page)%examples)
+                if (pages(page)%examples(i) /= "") call add("  "//pages(page)%examples(i))
+            end do
         else
             call add("")
             call add_item("", "exit status: "//exit_status_text, 0)
@@ -139,7 +134,7 @@ contains
             type(word_t), allocatable :: kinds(:)
             integer :: k
 
-            if (commands(which)%takes == "" .or. commands(which)%arguments == "") return
+            if (commands(which)%takes == "") return
             call add("")
             call add("arguments:")
             call wrapped(commands(which)%takes, 1, kinds)

@@ -38,11 +38,7 @@ contains
         do i = 2, size(commands)
             call add(".SS "//plain(trim(commands(i)%name)//" "//commands(i)%arguments))
             page = findloc(pages%name == commands(i)%name, .true., 1)
-            if (page > 0) then
-                call say(trim(pages(page)%purpose))
-            else
-                call say(trim(commands(i)%meaning))
-            end if
+            call say(trim(pages(page)%purpose))
             kinds = ""
             do k = 1, size(options)
                 if (accepts(commands(i), options(k)%name)) kinds = kinds//", --"// &
@@ -52,7 +48,6 @@ contains
                 call add(".PP")
                 call say("Options: "//kinds(3:)//".")
             end if
-            if (page == 0) cycle
             call add(".PP")
             call add(".EX")
             do k = 1, size(pages(page)%examples)

@@ -1,6 +1,6 @@
 module lagrangia_option_words
     !! Words that belong to an option but stand alone: `gif` behind `--plot`, `csv`, `help plot`.
-    use lagrangia_data_files, only: film_kinds, formats, picture_advice, pictures
+    use lagrangia_data_files, only: formats, picture_advice, pictures
     use lagrangia_number_reader, only: starts_number
     use lagrangia_registry, only: accepts, command_t, options, told, usage
     use lagrangia_scene_keys, only: keys
@@ -30,8 +30,6 @@ contains
             text = "a format of pictures; write '--plot="//small//"'"
         else if (accepts(command, "plot") .and. picture_advice(small) /= "") then
             text = "no format that '--plot' draws; there are "//picture_advice(small)
-        else if (accepts(command, "animate") .and. any(film_kinds == small)) then
-            text = "no format that '--animate' writes; a film is an HTML page, for a browser"
         else if (accepts(command, "format") .and. any(formats == small)) then
             text = "a format; write '--format "//small//"'"
         else if (index(word, "=") > 1) then

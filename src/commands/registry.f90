@@ -164,7 +164,6 @@ contains
         integer :: i
 
         text = ""
-        if (name == "help" .or. name == "version") return
         do i = 2, size(commands)
             if (.not. accepts(commands(i), name)) cycle
             text = ", as in 'lagrangia "//trim(commands(i)%name)//" "// &

@@ -5,6 +5,7 @@ module lagrangia_set_lines
     use lagrangia_constant_formula, only: read_constant
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: is_function_name
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, state_setting
@@ -109,7 +110,9 @@ contains
         do k = first, size(result%of)
             if (result%of(k)%verdict /= is_consequence) cycle
             if (.not. allocated(result%of(k)%because)) cycle
-            if (any(result%of(result%of(k)%because)%verdict == is_wrong)) cycle
+            result%of(k)%because = pack(result%of(k)%because, &
+                                        result%of(result%of(k)%because)%verdict == is_wrong)
+            if (size(result%of(k)%because) > 0) cycle
             result%of(k)%verdict = is_wrong
             result%of(k)%remark = "with what the lines 'set:' before it fix"
             deallocate (result%of(k)%because)
@@ -242,37 +245,42 @@ contains
         end if
         if (parameter > 0) then
             associate (p => d%parameters(parameter))
-                if (element > p%count) call fail(error, trim(p%name)//" has "// &
-                    to_text(p%count)//" values, "//trim(p%name)//"(1) to "//trim(p%name)//"("// &
-                    to_text(p%count)//")")
+                if (element > p%count .and. p%count == 1) then
+                    call fail(error, trim(p%name)//" is one number, without an index")
+                else if (element > p%count) then
+                    call fail(error, trim(p%name)//" has "//to_text(p%count)//" values, "// &
+                              trim(p%name)//"(1) to "//trim(p%name)//"("//to_text(p%count)//")")
+                end if
                 if (allocated(error)) return
-                if (p%count == 1 .or. element > 0) call read_value(value, d, trim(p%unit), error)
+                if (p%count == 1 .or. element > 0) call read_value(value, d, parameter, &
+                                                                       trim(p%unit), error)
             end associate
             if (allocated(error)) return
         end if
         said = name//"="//value
     end subroutine read_setting
 
-    subroutine read_value(value, d, unit, error)
+    subroutine read_value(value, d, parameter, unit, error)
         !! `pi/2`, `0.20 kg` of a mass; a number stays as it is.
         character(:), allocatable, intent(inout) :: value   !! as typed
         type(description_t), intent(in) :: d                !! of the system
+        integer, intent(in) :: parameter                    !! its place
         character(*), intent(in) :: unit                    !! of the parameter
         type(error_t), allocatable, intent(out) :: error    !! it is no number
         character(26) :: digits
         real(dp) :: number
         integer :: behind
 
-        if (value == "" .or. verify(value, of_number) == 0) return
+        if (value == "" .or. is_one_number(value)) return
         behind = verify(value, "0123456789+-.") - 1
         if (behind > 0) then
             if (trim(adjustl(value(behind + 1:))) == unit) then
                 value = value(:behind)
                 return
             else if (scan(value(behind + 1:), letters) > 0 .and. &
-                     verify(value(behind + 1:), " "//letters//"/^-0123456789") == 0 .and. &
+                     verify(value(behind + 1:), " "//letters//"/^*()[].-0123456789") == 0 .and. &
                      scan(value(behind + 1:behind + 1), " "//letters) == 1 .and. &
-                     .not. speaks_of_parameter() .and. index(value, "pi") == 0) then
+                     .not. all_names_known() .and. index(value, "pi") == 0) then
                 call fail(error, quoted(trim(adjustl(value(behind + 1:))))//" is not read; "// &
                           "write the number alone"//in_unit())
                 return
@@ -297,6 +305,28 @@ contains
             end do
         end function speaks_of_parameter
 
+        pure logical function all_names_known()
+            !! Those of other parameters: `m/s2`, `m (rod)` and the `m` of m = 2 m are units.
+            integer :: at, element, first, last
+
+            all_names_known = .true.
+            first = 1
+            do
+                at = scan(value(first:), letters)
+                if (at == 0) return
+                first = first + at - 1
+                last = first + verify(value(first:)//" ", letters//"_0123456789") - 2
+                call find_parameter(d, value(first:last), at, element)
+                if (at == 0 .and. allocated(d%letters)) then
+                    at = -count(d%letters%name == value(first:last))
+                end if
+                if (.not. is_function_name(value(first:last))) then
+                    all_names_known = all_names_known .and. at /= 0 .and. at /= parameter
+                end if
+                first = last + 1
+            end do
+        end function all_names_known
+
         function in_unit() result(words)
             character(:), allocatable :: words
 
@@ -304,4 +334,18 @@ contains
             if (unit /= "1") words = ", in "//unit
         end function in_unit
     end subroutine read_value
+
+    pure function is_one_number(text) result(yes)
+        !! Or several with commas or blanks between them, for the scene's reader; `1 + 1` is none.
+        character(*), intent(in) :: text
+        logical :: yes
+        integer :: i
+
+        yes = verify(text, of_number) == 0
+        do i = 2, len(text)
+            if (scan(text(i:i), "+-") == 0) cycle
+            yes = yes .and. scan(text(i - 1:i - 1), "eEdD ,") == 1 .and. &
+                  text(min(i + 1, len(text)):min(i + 1, len(text))) /= " "
+        end do
+    end function is_one_number
 end module lagrangia_set_lines

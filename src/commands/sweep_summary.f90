@@ -41,9 +41,8 @@ contains
                  method /= exponent_method(sweep%scene)) then
             method = method//", exponents by "//exponent_method(sweep%scene)
         end if
-        call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
-                      trim(merge(" trajectory  ", " trajectories", &
-                                 sweep%trajectories() == 1))//" by "//method//" in "// &
+        call put_line(trim(sweep%scene%name)//": "//counted(sweep%trajectories(), "trajectory")// &
+                      " by "//method//" in "// &
                       in_digits(result%seconds, 3)//" s"//how)
         width = maxval(len_trim(sweep%kept%text)) + 2
         do i = 1, size(sweep%kept)
@@ -107,12 +106,12 @@ contains
         if (.not. allocated(attractors%met)) return
         do i = 1, min(most, attractors%count)
             call put_line("    "//to_text(i)//" "//attractors%place_of(i, d)//": "// &
-                          to_text(attractors%met(i))//" trajectories")
+                          counted(attractors%met(i), "trajectory"))
         end do
         if (attractors%count > most) call put_line("    and "// &
             to_text(attractors%count - most)//" more")
         if (attractors%met(0) > 0) call put_line("    0, not settled or chaotic: "// &
-            to_text(attractors%met(0))//" trajectories")
+            counted(attractors%met(0), "trajectory"))
     end subroutine put_attractors
 
     subroutine put_json(sweep, result, path)

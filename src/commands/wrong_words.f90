@@ -164,7 +164,7 @@ contains
         type(facts_t) :: facts
         integer :: i
 
-        if (word == "" .or. command%name == "grade") return
+        if (command%name == "grade") return
         if (scan(word, "./") > 0 .and. scan(word, "=") == 0 .and. .not. starts_number(word)) return
         if (command%name == "help" .and. lower(word) == "scene") return
         facts = look_at(word)

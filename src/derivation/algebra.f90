@@ -240,7 +240,7 @@ contains
                 end if
             end associate
         end if
-        if (argument%terms > 0 .and. (odd .or. even)) then
+        if (odd .or. even) then
             if (argument%coefficient(1)%value < 0.0_dp) then
                 call self%atom_number(atom_function, which, number_t(), -argument, atom)
                 p = atom_power(atom, 1)

@@ -17,6 +17,8 @@ module lagrangia_attractor
     public :: signature_size
 
     integer, parameter :: most_period = 12            !! points after which a motion repeats
+    real(dp), parameter :: unit = 1e-3_dp              !! of a place that is told
+    real(dp), parameter :: half_turn = acos(-1.0_dp)   !! rad
     real(dp), parameter :: repeats_within = 1e-4_dp   !! of the size of the numbers, at least 1
     real(dp), parameter :: same_within = 1e-2_dp
 
@@ -136,7 +138,7 @@ contains
         integer :: i
 
         number = ieee_value(number, ieee_quiet_nan)
-        if (any(ieee_is_nan(signature))) return
+        if (ieee_is_nan(signature(1))) return
         number = 0.0_dp
         if (.not. allocated(self%signatures)) then
             allocate (self%signatures(size(signature), 8), self%met(0:8))
@@ -179,7 +181,10 @@ contains
         associate (s => self%signatures(2:, number))
             do i = 1, n
                 value = s(i)
-                if (d%coordinates(i)%unit == "rad") value = atan2(s(n + i), s(i))
+                if (d%coordinates(i)%unit == "rad") then
+                    value = atan2(s(n + i), s(i))
+                    if (value + half_turn < 0.5_dp*unit) value = half_turn  ! -pi is pi
+                end if
                 text = text//", "//trim(d%coordinates(i)%name)//" = "//rounded(value)
             end do
             do i = 1, n
@@ -192,15 +197,12 @@ contains
     end function place_of
 
     pure function rounded(value) result(text)
-        !! To three decimals; -pi is pi, and there is no -0.
+        !! To three decimals; there is no -0.
         real(dp), intent(in) :: value
         character(:), allocatable :: text
-        real(dp), parameter :: unit = 1e-3_dp, half_turn = acos(-1.0_dp)
         real(dp) :: near
 
-        near = value
-        if (abs(value + half_turn) < 0.5_dp*unit) near = half_turn
-        near = anint(near/unit)
+        near = anint(value/unit)
         if (abs(near) < 0.5_dp) near = 0.0_dp
         text = to_text(near/1000.0_dp)
     end function rounded

@@ -93,26 +93,18 @@ contains
     end subroutine take_position_step
 
     pure subroutine take_velocity_step(self, system, n, h, t_end, y)
-        !! Kick, drift, ..., kick: the accelerations at its end are the first of the next one.
+        !! Kick, drift, kick: the accelerations at its end are the first of the next one.
         class(composition_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         integer, intent(in) :: n
         real(dp), intent(in) :: h(lanes), t_end(lanes)
         real(dp), intent(inout) :: y(lanes, n, 2)
-        integer :: s, stages
 
-        stages = size(self%drift)
         associate (q => y(:, :, 1), v => y(:, :, 2))
-            do s = 1, stages
-                call add(n, self%kick(s), h, self%a, v)
-                call add(n, self%drift(s), h, v, q)
-                if (s < stages) then
-                    call system%accelerations_lanes(self%t + self%node(s)*h, q, v, self%a)
-                else
-                    call system%accelerations_lanes(t_end, q, v, self%a)
-                end if
-            end do
-            call add(n, self%kick(stages + 1), h, self%a, v)
+            call add(n, self%kick(1), h, self%a, v)
+            call add(n, self%drift(1), h, v, q)
+            call system%accelerations_lanes(t_end, q, v, self%a)
+            call add(n, self%kick(2), h, self%a, v)
         end associate
     end subroutine take_velocity_step
 

@@ -328,10 +328,8 @@ contains
         class(keeper_t), intent(inout) :: self
         type(error_t), allocatable, intent(inout) :: error
 
-        if (self%found < size(self%points, 2)) then
-            self%found = self%found + 1
-            self%points(:, self%found) = self%row
-        end if
+        self%found = self%found + 1
+        self%points(:, self%found) = self%row
         self%full = self%found == size(self%points, 2)
         if (self%full) call fail(error, "all points that are wanted are there")
     end subroutine keep_point

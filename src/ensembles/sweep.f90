@@ -12,7 +12,7 @@ module lagrangia_sweep
                               keeps_event, keeps_flip, keeps_largest, keeps_smallest, &
                               keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: auto, exact, workhorse
+    use lagrangia_methods, only: auto, workhorse
     use lagrangia_names, only: advice
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
@@ -346,10 +346,10 @@ contains
             if (scene%method == "rk4" .and. scene%tolerance <= 0.0_dp) return
             call find_row(scene%method, splitting)
             if (splitting%order > 0) then
-                yes = yes .and. scene%tolerance <= 0.0_dp .and. .not. system%velocity_forces
+                yes = yes .and. .not. system%velocity_forces
                 return
             end if
-            yes = yes .and. scene%method == "dop853" .and. scene%tolerance > 0.0_dp
+            yes = yes .and. scene%method == "dop853"
             if (.not. yes) return
             call system%reduce(reduced)  ! a single trajectory leaves the cyclic coordinate out
             yes = .not. allocated(reduced)
@@ -363,7 +363,7 @@ contains
         character(:), allocatable :: name
 
         name = workhorse
-        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) name = trim(scene%method)
+        if (scene%tolerance > 0.0_dp) name = trim(scene%method)
     end function exponent_method
 
     pure function follows_displacements(sweep) result(yes)

@@ -269,7 +269,6 @@ contains
         last = index(name, "_", back=.true.)
         if (last < 2 .or. last /= len(name) - 1) return
         which = index("xyz", name(last + 1:))
-        if (which == 0) return
         which = findloc(names == name(:last - 1)//"("//to_text(which)//")", .true., 1)
     end function component
 

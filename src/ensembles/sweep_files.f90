@@ -139,7 +139,7 @@ contains
         real(dp) :: row(size(sweep%axes) + size(sweep%kept))
         character(:), allocatable :: counts
         integer(i8) :: block, i, rows
-        integer :: k, kept, n
+        integer :: k, kept, last, n
 
         rows = 0
         n = size(sweep%axes)
@@ -158,10 +158,13 @@ contains
                     end if
                 end if
                 row(:n) = sweep%coordinates_of(i)
-                do k = 1, sweep%points
+                last = sweep%points
+                if (sweep%keeps_points) last = findloc([(any(.not. ieee_is_nan( &
+                    values((k - 1)*kept + 1:k*kept, i - result%store%first_of(block) + 1))), &
+                    k=1, sweep%points)], .true., 1, back=.true.)
+                do k = 1, last
                     row(n + 1:) = values((k - 1)*kept + 1:k*kept, &
                                          i - result%store%first_of(block) + 1)
-                    if (sweep%keeps_points .and. all(ieee_is_nan(row(n + 1:)))) exit
                     call table%add_row(row, error)
                     if (allocated(error)) return
                     rows = rows + 1

@@ -114,7 +114,7 @@ contains
         allocate (result%found(size(sweep%kept)), source=0_i8)
         allocate (result%least(size(sweep%kept)), source=huge(1.0_dp))
         allocate (result%largest(size(sweep%kept)), source=-huge(1.0_dp))
-        if (present(path) .and. present(told) .and. present(resume)) then
+        if (present(path)) then
             call result%store%prepare(path, told, sweep%width(), total, block_size(sweep), error)
             if (.not. allocated(error)) call open_parts(path, resume, result%store, error)
         else

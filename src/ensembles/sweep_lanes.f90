@@ -273,7 +273,6 @@ contains
             real(dp), intent(in) :: t, q(:), v(:)
 
             if (sweep%attractors) call lane(i)%strobed%see(q, v)
-            if (sweep%keeps_points .and. lane(i)%found == sweep%points) return
             if (.not. (sweep%keeps_points .or. extremes)) return
             associate (this => lane(i))
                 call this%columns%evaluate(system_of(i), t, q, v, 0.0_dp, this%row)

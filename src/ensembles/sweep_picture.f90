@@ -181,16 +181,18 @@ contains
         integer, intent(in) :: least, largest  !! of their numbers, 0 <= least <= largest
         character(:), allocatable :: line
         integer, parameter :: room = 80        !! characters beside the whole column of colours
-        character(:), allocatable :: text
+        character(:), allocatable :: place, text
         type(description_t) :: d
         integer :: i
 
         call sweep%system%describe(d)
         line = ""
         do i = least, largest
-            text = "0 not settled"
-            if (i > 0) text = with_symbols(to_text(i)//" "//found%attractors%place_of(i, d))
-            if (text == "" .or. width_of(text)*(largest - least + 1) > room) then
+            place = "0 not settled"
+            if (i > 0) place = to_text(i)//" "//found%attractors%place_of(i, d)
+            text = with_symbols(place)
+            if (text == "") text = place  ! without any symbol
+            if (width_of(text)*(largest - least + 1) > room) then
                 line = ""
                 return
             end if
@@ -305,7 +307,7 @@ contains
         apart = ""
         call script%add("unset label")
         associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
-            if (kept%kind == keeps_attractor .and. n > 0 .and. &
+            if (kept%kind == keeps_attractor .and. &
                 largest < size(distinct) + 0.5_dp) then
                 call script%add(attractor_colours(nint(least), nint(largest)))
                 places = attractor_places(sweep, found, nint(least), nint(largest))
@@ -334,7 +336,7 @@ contains
                 end associate
             end do
             call script%add("unset logscale; unset grid; unset key")
-            if (n > 0 .and. least > 0.0_dp .and. largest > 30.0_dp*least) then
+            if (least > 0.0_dp .and. largest > 30.0_dp*least) then
                 call script%add("set logscale cb")
             end if
             if (x%logarithmic) call script%add("set logscale x")

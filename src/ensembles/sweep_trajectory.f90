@@ -2,7 +2,7 @@ module lagrangia_sweep_trajectory
     !! What is kept of one trajectory of a sweep.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_dense_run, only: drive
-    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kept, only: is_exact_extreme, is_lyapunov, keeper_t, keeps_attractor, &
                               keeps_end, keeps_event, keeps_exact_largest, keeps_exact_period, &
@@ -10,7 +10,7 @@ module lagrangia_sweep_trajectory
                               keeps_period, keeps_smallest, keeps_wrapped, kept_t, wrapped
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lyapunov, only: lyapunov_exponent
-    use lagrangia_methods, only: exact, new_adaptive
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_observer, only: observer_box_t
     use lagrangia_part_report, only: part_report_t
     use lagrangia_period, only: period_t
@@ -62,14 +62,8 @@ contains
         call sweep%match_energy(system, scene%q, scene%v, error)
         if (.not. allocated(error)) call sweep%set_strobe(scene, after, error)
         if (allocated(error)) return
-        if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period .or. &
-                                           is_exact_extreme(sweep%kept%kind))) then
+        if (any(sweep%kept%kind == keeps_exact_period .or. is_exact_extreme(sweep%kept%kind))) then
             call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
-        end if
-        if (scene%method == exact) then
-            if (.not. allocated(closed_form)) call fail(error, "no closed form is known from "// &
-                                                        "this start", status_numbers)
-            if (allocated(error)) return
         end if
         if (present(share)) report = part_report_t(from=share(1), to=share(2))
         call follow(sweep, scene, system, closed_form, after, report, values, error)
@@ -214,7 +208,7 @@ contains
         real(dp) :: exponent, least, uncertainty
 
         call new_adaptive(exponent_method(scene), method)
-        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
+        if (scene%tolerance > 0.0_dp) then
             method%tolerance = scene%tolerance
             least = sensible_tolerance(method, system, scene%t0, scene%duration, scene%q, scene%v)
             if (scene%tolerance < least) call fail(error, to_text(scene%tolerance)//" is less "// &

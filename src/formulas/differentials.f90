@@ -3,7 +3,7 @@ module lagrangia_differentials
     !! differentiated, how often, and by what.
     use lagrangia_expression, only: is_function_name, kind_symbol
     use lagrangia_formula_reader, only: reader_t
-    use lagrangia_formula_tokens, only: is_end, is_name
+    use lagrangia_formula_tokens, only: is_name
     use lagrangia_names, only: name_length
     use lagrangia_symbols, only: symbols_t
     implicit none (type, external)
@@ -99,8 +99,7 @@ contains
             integer, intent(in) :: k
             integer :: of
 
-            of = is_end
-            if (k <= size(reader%tokens%token)) of = reader%tokens%token(k)%kind
+            of = reader%tokens%token(k)%kind
         end function sort_at
 
         pure function behind_bracket(k) result(next)
@@ -184,7 +183,7 @@ contains
             end if
             if (order == 2 .and. word(k) == "^" .and. word(k + 1) == "2") then
                 k = k + 2
-                count = 1
+                count = count + 1
             end if
             count = count + 1
             if (.not. can_divide(symbols, by) .or. count > order) then

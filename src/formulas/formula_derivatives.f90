@@ -377,7 +377,7 @@ contains
         integer, intent(in) :: place                         !! of the symbol; 0: a definition
         type(expression_t), intent(in) :: meaning            !! of the definition
         integer :: at, k, n, which, what
-        logical :: moves, of_time
+        logical :: moves, of_energies, of_time
 
         if (.not. allocated(symbols%rates)) return
         if (.not. next_is(reader, "(") .or. .not. reader%tokens%token(reader%at)%glued) return
@@ -390,22 +390,27 @@ contains
         of_time = what > 1 .and. what <= 1 + 3*n
         moves = .true.
         if (what > 1 + 3*n) moves = symbols%rates(what) /= 0
-        if (what == 0) moves = any([(meaning%depends_on(k), k=1, 1 + 3*n)])
+        of_energies = .false.  ! f = 2 V, which depends on what V depends on
+        if (what == 0) then
+            of_energies = any([(meaning%depends_on(k) .and. symbols%rates(k) /= 0, &
+                                k=2 + 3*n, size(symbols%rates))])
+            moves = of_energies .or. any([(meaning%depends_on(k), k=1, 1 + 3*n)])
+        end if
         if (.not. moves) return
         at = reader%at + 1
         do
             which = symbols%find(symbols%spelling(reader%tokens%word(at)))
             if (which == 0) which = place_of(symbols, reader%tokens%word(at))
             if (which == 0) which = momentum(reader%tokens%word(at))
-            if (which == 0 .or. at + 1 > size(reader%tokens%token)) return
+            if (which == 0) return
             if (of_time .and. which /= 1) return
             if (which > 1 + 3*n .and. momentum(reader%tokens%word(at)) == 0) return
-            if (what == 0 .and. which > 1 .and. .not. meaning%depends_on(which)) return
+            if (what == 0 .and. which > 1 .and. .not. (of_energies .or. &
+                                                       meaning%depends_on(which))) return
             at = at + 1
             if (reader%tokens%word(at) == ")") exit
             if (reader%tokens%word(at) /= ",") return
             at = at + 1
-            if (at >= size(reader%tokens%token)) return
         end do
         reader%at = at + 1
     contains

@@ -35,7 +35,7 @@ contains
             end if
             reader%at = reader%at + 1
         end if
-        if (is_alone(reader)) then
+        if (is_alone(reader) .or. (next_is(reader, "|") .and. reader%bars == 0)) then  ! log|x|
             call read_factor(reader, symbols, argument, error)
         else if (next_is(reader, "(")) then
             call read_bracket(reader, symbols, argument, error)

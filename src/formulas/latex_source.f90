@@ -405,7 +405,7 @@ contains
 
         behind = at + verify(source%text(at:last)//" ", letters) - 1
         word = source%text(at:behind - 1)
-        if (any(greek == word) .or. any(functions == word) .or. word == "sqrt" .or. &
+        if (any(greek == word) .or. any(functions == word) .or. &
             len(word) > longest_product .or. (word(1:1) == "d" .and. (differential .or. &
             source%text(behind:min(behind, last)) == "/"))) then
             call put_name(source, word, at)

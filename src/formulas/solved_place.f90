@@ -18,7 +18,7 @@ contains
 
         which = 0
         function = 0
-        if (left%count < 1 .or. left%count > 2) return
+        if (left%count > 2) return
         if (left%nodes(1)%kind /= kind_symbol) return
         if (left%count == 2) then
             if (left%nodes(2)%kind /= kind_function) return

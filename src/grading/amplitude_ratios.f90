@@ -4,6 +4,7 @@ module lagrangia_amplitude_ratios
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_frequency_squares, only: with_squares
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_lapack_eigen, only: dgeev
@@ -22,6 +23,7 @@ module lagrangia_amplitude_ratios
 
     character(*), parameter :: digits = "0123456789"
     real(dp), parameter :: equal = 1e-6_dp  !! relative, of two frequencies that are the same
+    real(dp), parameter :: rounding = 1e-12_dp  !! of a frequency that is 0, beside the largest
 
 contains
 
@@ -56,6 +58,8 @@ contains
         if (.not. allocated(error)) call parse_formula(right_text, symbols, right, error)
         if (allocated(error)) return
         is_one = .true.
+        left = with_squares(left, samples%frequency)
+        right = with_squares(right, samples%frequency)
         residual = left - right
         do i = 1, 1 + 3*samples%ndof
             if (residual%depends_on(i)) is_one = .false.
@@ -65,6 +69,11 @@ contains
             judgement%verdict = is_unreadable
             judgement%remark = "amplitudes of modes with drag or gyroscopic forces are not "// &
                                "graded: the coordinates are not in phase"
+            return
+        end if
+        if (any(is_nonzero(samples%stiffness)) .and. .not. all_finite(samples%turning)) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "amplitudes of modes with constraints are not graded"
             return
         end if
         speaks_of_omega = residual%depends_on(samples%frequency) .or. &
@@ -166,7 +175,6 @@ contains
         type(samples_t), intent(in) :: samples
         integer :: which
         character(:), allocatable :: index_text
-        integer :: status
 
         which = 0
         if (len(name) < 2 .or. scan(name(1:1), "ABCX") == 0) return
@@ -174,8 +182,8 @@ contains
         if (index_text(1:1) == "_") index_text = index_text(2:)
         if (index_text == "") return
         if (verify(index_text, digits) == 0 .and. len(index_text) < 4) then
-            read (index_text, *, iostat=status) which
-            if (status /= 0 .or. which > samples%ndof) which = 0
+            read (index_text, *) which
+            if (which > samples%ndof) which = 0
             return
         end if
         if (name(2:2) /= "_") return
@@ -207,6 +215,7 @@ contains
         end do
         call dgeev("N", "V", n, a, n, omega2, im, none, 1, amplitudes, n, work, size(work), info)
         known = info == 0 .and. all(is_zero(im))
+        where (abs(omega2) <= rounding*maxval(abs(omega2))) omega2 = 0.0_dp
         do j = 2, n
             known = known .and. all(abs(omega2(:j - 1) - omega2(j)) > equal*maxval(abs(omega2)))
         end do

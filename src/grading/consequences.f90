@@ -2,7 +2,7 @@ module lagrangia_consequences
     !! A false statement that follows from lines before it that are wrong: a student makes a mistake
     !! once, and goes on from it as one should.
     use lagrangia_derivative, only: time_derivative
-    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol, operator(-), symbol
+    use lagrangia_expression, only: expression_t, kind_symbol, operator(-), symbol
     use lagrangia_formula_program, only: new_formula_program
     use lagrangia_homework, only: statement_t
     use lagrangia_judgement, only: is_right, judge, judgement_t
@@ -117,7 +117,6 @@ contains
         logical :: said(truth%ndof)
         integer :: i, k, left, n
 
-        if (residual%count == 0) return
         if (.not. allocated(self%worlds)) allocate (self%worlds(most_worlds), &
                                                     self%mistake(most_worlds))
         if (self%mistakes < most_worlds) then
@@ -130,7 +129,6 @@ contains
         end if
         if (.not. allocated(truth%mass)) return
         left = residual%nodes(residual%count)%left
-        if (residual%nodes(residual%count)%kind /= kind_difference) return
         right = residual%pruned(residual%nodes(residual%count)%right)
         k = 0
         if (residual%nodes(left)%kind == kind_symbol) k = residual%nodes(left)%which
@@ -328,7 +326,6 @@ contains
         if (samples%symbols%names(name) /= "L") then
             t = samples%symbols%find("T")
             v = samples%symbols%find("V")
-            if (t == 0 .or. v == 0) return
             do i = 1, size(samples%compiled)
                 if (samples%compiled(i)%symbol /= name) cycle
                 samples%compiled(i)%formula = formula

@@ -61,11 +61,9 @@ contains
         do begun = 1, merge(4, most_starts, size(places) == 1)
             values(:, places) = drawn + real(begun, dp)*0.7_dp - 1.4_dp
             do turn = 1, steps
-                jacobian = 0.0_dp
                 do j = 1, size(places)
                     f(:, j) = values_of(equations(j), values)
                     do k = 1, size(places)
-                        if (slopes(j, k)%count == 0) cycle
                         jacobian(:, j, k) = values_of(slopes(j, k), values)
                     end do
                 end do

@@ -47,8 +47,8 @@ contains
         its_own = .false.
         do i = 1, size(samples%constants)
             if (.not. any(names == samples%constants(i))) cycle
-            its_own = its_own .or. any([(samples%motion(k)%count > 0 .and. &
-                samples%motion(k)%depends_on(size(samples%role) + i), k=1, n)])
+            its_own = its_own .or. any([(samples%motion(k)%depends_on(size(samples%role) + i), &
+                                         k=1, n)])
         end do
         if (.not. its_own) return
         call put_on_motion(samples, there)
@@ -116,8 +116,7 @@ contains
             do order = 0, 2
                 place = 1 + k + order*samples%ndof
                 rate = rate_of(samples%motion(k), order)
-                values(:, place) = 0.0_dp
-                if (rate%count > 0) values(:, place) = values_of(rate, values)
+                values(:, place) = values_of(rate, values)
             end do
         end do
         do i = 1, size(samples%constants)  ! definitions have the same ones

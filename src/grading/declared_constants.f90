@@ -87,7 +87,6 @@ contains
         integer :: place
 
         place = samples%symbols%find(name//hidden)
-        if (place == 0) return
         samples%symbols%names(place) = name
         samples%values(:, place) = values
         if (two_signs) samples%values(:, place) = abs(values)
@@ -116,9 +115,8 @@ contains
         integer :: at
 
         if (.not. allocated(text)) return
-        do
-            at = index(text, hidden)
-            if (at == 0) exit
+        do at = len(text), 2, -1
+            if (text(at:at) /= hidden .or. text(at - 1:at - 1) == "'") cycle  ! typed: '!'
             text = text(:at - 1)//text(at + 1:)
         end do
     end subroutine show_constants

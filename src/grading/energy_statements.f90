@@ -77,7 +77,6 @@ contains
         integer :: place
 
         place = samples%symbols%find("E")
-        if (place == 0) return
         if (.not. residual%depends_on(place)) return
         slope = derivative(residual, place)
         if (slope%depends_on(place)) return

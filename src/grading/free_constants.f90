@@ -233,8 +233,7 @@ contains
             do k = 2, 1 + samples%ndof
                 if (.not. typed%depends_on(k)) cycle
                 slope = derivative(formulas(1), k)
-                cyclic = slope%count == 0
-                if (.not. cyclic) call holds(slope, samples%values, cyclic, judged)
+                call holds(slope, samples%values, cyclic, judged)
                 if (.not. cyclic) cycle
                 names = [character(name_length) :: given, "axis"//hidden]
                 starts = [(-1, i=1, size(names))]
@@ -286,7 +285,6 @@ contains
                     return
                 end if
                 rates(k) = time_derivative(rates(k - 1), symbols%rates, 1)
-                if (rates(k)%count == 0) rates(k) = whole(0)
             end do
             call draw_constants(samples, size(names), values)
             call solve_constants(rates(:size(chosen) - 1), n + chosen, values, regular)

@@ -15,7 +15,7 @@ contains
     pure function square(formula, frequency) result(squared)
         !! Of products and quotients of positive numbers, letters and roots, which are taken for
         !! positive, so that two of them are equal if their squares are.
-        type(expression_t), intent(in) :: formula  !! may be anything
+        type(expression_t), intent(in) :: formula  !! not empty
         integer, intent(in) :: frequency           !! the symbol omega; behind it that of its square
         type(expression_t) :: squared              !! empty: the sign is not known
         type(expression_t) :: squares(formula%count)
@@ -43,7 +43,7 @@ contains
                 end select
             end associate
         end do
-        if (formula%count > 0) squared = squares(formula%count)
+        squared = squares(formula%count)
     end function square
 
     pure function with_squares(formula, frequency) result(e)

@@ -286,7 +286,6 @@ contains
         do k = 1, size(samples%compiled)  ! m for m_block
             associate (letter => samples%compiled(k))
                 if (letter%formula%count /= 1 .or. samples%rate(letter%symbol) > 0) cycle
-                if (letter%formula%nodes(1)%kind /= kind_symbol) cycle
                 meaning(1) = symbol(letter%symbol)
                 difference = substituted(difference, [letter%formula%nodes(1)%which], meaning)
             end associate

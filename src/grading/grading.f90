@@ -158,7 +158,7 @@ contains
         do i = 1, size(result)
             do side = 1, most_sides  ! `m1 = m2 = m3` says two things
                 if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) exit
-                if (homework%statements(i)%small) exit
+                if (homework%statements(i)%small .or. result(i)%of_constant) exit
                 call find_condition(result(i)%residual, samples, condition)
                 if (condition%symbol == 0) exit
                 call put_condition(condition, conditions)

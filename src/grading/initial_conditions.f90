@@ -131,7 +131,7 @@ contains
         type(samples_t), intent(inout) :: samples        !! know the constants
         integer :: i
 
-        if (f%count /= 1 .or. begun%count == 0) return
+        if (f%count /= 1) return
         do i = 1, size(samples%constants)
             if (begun%depends_on(known + i)) return
         end do

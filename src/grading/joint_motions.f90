@@ -2,7 +2,7 @@ module lagrangia_joint_motions
     !! Whether the motions of several coordinates, each of which solves the linearised equations,
     !! solve them together: in a mode the amplitudes have a ratio.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_expression, only: expression_t, whole
+    use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: put_frequencies, rate_of, values_of
     use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
@@ -68,7 +68,7 @@ contains
                 do order = 1, 3
                     if (motions(j)%count == 0) cycle
                     rate = rate_of(motions(j), order)
-                    if (rate%count > 0) rates(:, j, order) = values_of(rate, at)
+                    rates(:, j, order) = values_of(rate, at)
                 end do
             end do
             do row = 1, size(at, 1)
@@ -111,12 +111,10 @@ contains
         do i = 1, n
             do order = 0, 2
                 put(order*n + i) = rate_of(samples%motion(i), order)
-                if (put(order*n + i)%count == 0) put(order*n + i) = whole(0)
             end do
         end do
         do i = 1, n
             equation = equation_of_motion(i, samples)
-            if (equation%count == 0) cycle
             call holds(equation, samples%values, yes, judged)
             if (.not. yes) return  ! other forces act
             call holds(substituted(equation, places, put), values, yes, judged)

@@ -134,6 +134,11 @@ contains
                 return
             end if
         end if
+        if (any(samples%declared == name)) then
+            judgement%remark = error%message(:first - len(unknown) - 1)//quoted(name)// &
+                " is a constant, and no line before says what it has to do with the motion"
+            return
+        end if
         if (length > 3) return
         judgement%remark = judgement%remark//"; if it is a constant, write a line 'constant: "// &
             error%message(first:first + length - 1)//"'"

@@ -137,6 +137,7 @@ contains
                                         judgement%remark)
                 end if
             end if
+            judgement%of_constant = constancy
             if (judgement%verdict /= is_right) return
             if (next > len(text)) then
                 if (judgement%contradicts) judgement%verdict = is_definition

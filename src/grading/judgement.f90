@@ -6,7 +6,7 @@ module lagrangia_judgement
     use lagrangia_constants_of_motions, only: put_on_motion
     use lagrangia_derivative, only: time_derivative
     use lagrangia_equality_signs, only: read_signs
-    use lagrangia_expression, only: expression_t, kind_difference, kind_symbol
+    use lagrangia_expression, only: expression_t, kind_symbol
     use lagrangia_homework, only: statement_t
     use lagrangia_judged_line, only: judge_line, read_equals
     use lagrangia_kinds, only: dp
@@ -247,15 +247,13 @@ contains
                 place = samples%kept_constants(k)
                 if (residual%nodes(1)%kind /= kind_symbol) return
                 if (residual%nodes(1)%which /= place) cycle
-                if (residual%nodes(residual%count)%kind /= kind_difference .or. &
-                    residual%nodes(residual%count)%left /= 1) return
+                if (residual%nodes(residual%count)%left /= 1) return
                 chosen(1) = residual%pruned(residual%nodes(residual%count)%right)
                 if (any([(chosen(1)%depends_on(i) .and. (samples%rate(i) > 0 .or. &
                           any(samples%kept_constants == i)), i=1, size(samples%role))])) return
                 if (.not. any([(samples%motion(i)%depends_on(place), i=1, samples%ndof)])) return
                 do i = 1, samples%ndof
-                    if (samples%motion(i)%count > 0) samples%motion(i) = &
-                        substituted(samples%motion(i), [place], chosen)
+                    samples%motion(i) = substituted(samples%motion(i), [place], chosen)
                 end do
                 judgement%verdict = is_definition
                 judgement%remark = "a choice of one motion of many"

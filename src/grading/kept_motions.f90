@@ -4,7 +4,7 @@ module lagrangia_kept_motions
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_constant_values, only: draw_constants, solve_constants
     use lagrangia_declared_constants, only: has_place, keep_constant, place_of_constant
-    use lagrangia_expression, only: expression_t, operator(-), symbol, whole
+    use lagrangia_expression, only: expression_t, operator(-), symbol
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: is_frequency_name, put_frequencies, rate_of
     use lagrangia_sample_names, only: samples_t
@@ -64,7 +64,6 @@ contains
         end do
         do k = 0, size(equations) - 1
             rate = rate_of(f, k)
-            if (rate%count == 0) rate = whole(0)
             equations(k) = symbol(1 + coordinate + (order + k)*samples%ndof) - rate
         end do
         call draw_constants(samples, size(samples%constants), values)

@@ -4,7 +4,7 @@ module lagrangia_letter_products
     use lagrangia_expression, only: constant, expression_t, kind_difference, kind_sum, &
                                     operator(*), operator(**), operator(/), symbol, whole
     use lagrangia_kinds, only: dp
-    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
+    use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     implicit none (type, external)
@@ -68,8 +68,8 @@ contains
     end function is_constant
 
     subroutine add(letters, formula, samples)
-        !! One more, unless it has no value, is zero, is the same number in all draws, of which any
-        !! number is a product, or there is one with the same values.
+        !! One more, unless it has no value, is the same number in all draws, of which any number
+        !! is a product, or there is one with the same values.
         type(letter_t), allocatable, intent(inout) :: letters(:)
         type(expression_t), intent(in) :: formula
         type(samples_t), intent(in) :: samples
@@ -80,7 +80,6 @@ contains
         call evaluate_nodes(formula, samples%values(1::states, :), results)
         value = results(:, formula%count)
         if (.not. all_finite(value)) return
-        if (any(is_zero(value))) return
         if (all(abs(value - value(1)) <= equal*abs(value))) return
         do i = 1, size(letters)
             if (any(abs(value - letters(i)%value) > equal*abs(value))) cycle

@@ -5,6 +5,8 @@ module lagrangia_mode_samples
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
+    use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
@@ -66,7 +68,9 @@ contains
             samples%other_equilibrium(:, draw) = others%at
             samples%other_stiffness(:, :, draw) = others%stiffness
             samples%other_inertia(:, :, draw) = others%mass
-            call put_turning(others, samples%other_turning(:, :, draw))
+            call put_forces(others, samples%other_stiffness(:, :, draw), &
+                            samples%other_turning(:, :, draw), &
+                            samples%omega2(draw, n + 1:2*n))
         end if
         if (samples%decay > 0) call damp(others, samples%omega2(draw, n + 1:))
     contains
@@ -77,7 +81,8 @@ contains
             real(dp), dimension(n, n) :: beside, drag
             real(dp) :: free
 
-            call put_turning(modes, samples%turning(:, :, draw))
+            call put_forces(modes, samples%stiffness(:, :, draw), samples%turning(:, :, draw), &
+                            omega2)
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
             if (samples%decay == 0) return
@@ -86,17 +91,46 @@ contains
             call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
         end subroutine add_forces
 
-        subroutine put_turning(modes, turning)
-            !! NaN where forces beside L depend on the place, or constraints bind.
+        subroutine put_forces(modes, stiffness, turning, omega2)
+            !! Forces beside L: their slopes by the places belong to K, and change \(\omega^2\);
+            !! those by the velocities to G, which stays NaN where constraints bind.
             type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: turning(:, :)
+            real(dp), intent(inout) :: stiffness(:, :), turning(:, :), omega2(:)
             real(dp), dimension(n, n) :: beside, drag
 
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
-            if (any(is_nonzero(beside)) .or. allocated(modes%basis)) return
+            if (allocated(modes%basis)) return
             turning = modes%gyroscopic + drag
-        end subroutine put_turning
+            if (.not. any(is_nonzero(beside))) return
+            stiffness = modes%stiffness + beside
+            if (any(is_nonzero(turning))) then
+                omega2 = 0.0_dp
+            else
+                call put_squares(stiffness, modes%mass, omega2)
+            end if
+        end subroutine put_forces
+
+        subroutine put_squares(stiffness, mass, omega2)
+            !! Of a K that may have no symmetry, ascending; 0 where they are no real numbers.
+            real(dp), intent(in) :: stiffness(:, :), mass(:, :)
+            real(dp), intent(out) :: omega2(:)
+            real(dp) :: a(n, n), im(n), left(1, n), of(n), right(1, n), work(4*n)
+            integer :: info, j
+
+            omega2 = 0.0_dp
+            do j = 1, n
+                call solve_linear(mass, stiffness(:, j), a(:, j), error)
+                if (allocated(error)) return
+            end do
+            call dgeev("N", "N", n, a, n, of, im, left, 1, right, 1, work, size(work), &
+                       info)
+            if (info /= 0 .or. any(is_nonzero(im))) return
+            do j = 1, n
+                omega2(j) = minval(of)
+                of(minloc(of, 1)) = huge(of)
+            end do
+        end subroutine put_squares
 
         subroutine damp(modes, omega2)
             !! \(\omega^2 = K/M - (C/2M)^2\).

@@ -39,12 +39,14 @@ contains
         character(20), parameter :: meanings(4) = [character(20) :: "the Lagrangian", &
                                                    "the kinetic energy", &
                                                    "the potential energy", "the energy"]
+        logical :: is_name
         integer :: i
 
         do i = 1, size(letters)
-            if (.not. (any(d%coordinates%name == letters(i)) &
-                       .or. any(d%quantities%name == letters(i)) &
-                       .or. any(value_names(d) == letters(i)))) cycle
+            is_name = any(d%coordinates%name == letters(i)) .or. &
+                      any(d%quantities%name == letters(i)) .or. any(value_names(d) == letters(i))
+            if (allocated(d%letters)) is_name = is_name .or. any(d%letters%name == letters(i))
+            if (.not. is_name) cycle
             call fail(error, trim(d%name)//" uses the letter "//letters(i)//", which in "// &
                       "an answer is "//trim(meanings(i))//"; give it another name, such as "// &
                       letters(i)//"0")

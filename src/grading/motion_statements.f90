@@ -271,7 +271,6 @@ contains
         if (yes) then
             ! free fall, and what rolls or slides down a plane
             put(1) = rate_of(f, 2 - order)
-            if (put(1)%count == 0) put(1) = whole(0)
             judgement%remark = ""
             call holds(put(1) - equation, values, yes, is_one)
             if (is_one .and. .not. yes) call try_rounded(put(1) - equation, typed, values, yes, &
@@ -294,7 +293,6 @@ contains
         end do
         do k = 1, 3
             put(k) = rate_of(f, k - 1)
-            if (put(k)%count == 0) return
         end do
         call holds(substituted(equation, places, put), values, yes, judged)
         is_one = judged
@@ -372,7 +370,6 @@ contains
             allocate (rates(size(values, 1), 0:times), source=0.0_dp)
             do k = 0, times
                 rate = rate_of(f, k)
-                if (rate%count == 0) cycle
                 rates(:, k) = values_of(rate, values)
             end do
             finite = 0

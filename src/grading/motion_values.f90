@@ -116,13 +116,11 @@ contains
             if (is_frequency_name(samples%constants(k), samples)) cycle
             if (.not. any(f%nodes(:f%count)%kind == kind_function)) then
                 rate = rate_of(f, 2)
-                if (rate%count == 0) cycle
                 if (rate%depends_on(size(samples%role) + k)) name = trim(samples%constants(k))
             end if
             do i = 1, f%count
                 if (f%nodes(i)%kind /= kind_function) cycle
                 rate = derivative(f%pruned(f%nodes(i)%left), 1)
-                if (rate%count == 0) cycle
                 if (rate%depends_on(size(samples%role) + k)) name = trim(samples%constants(k))
             end do
             if (name /= "") return
@@ -138,7 +136,7 @@ contains
 
         d = f
         do k = 1, times
-            if (d%count > 0) d = derivative(d, 1)
+            d = derivative(d, 1)
         end do
     end function rate_of
 

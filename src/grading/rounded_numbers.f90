@@ -218,7 +218,7 @@ contains
                     if (text(i:i) == "." .or. (text(i:i) == "0" .and. significant == 0)) cycle
                     significant = significant + 1
                 end do
-                if (abs(number - value) <= 1e-12_dp*abs(number) .and. &
+                if (abs(number - value) <= 1e-12_dp*number .and. &
                     significant >= merge(2, 3, alone)) then
                     half = 0.5_dp*10.0_dp**(-(last - first + 1 - point))
                     return

@@ -100,11 +100,7 @@ contains
             case ("(", "{", "["); depth = depth + 1
             case (")", "}", "]"); depth = depth - 1
             case (",", ";")
-                if (at == 1) then
-                    width = 1
-                else if (line(at - 1:at - 1) /= "\") then  ! a small blank of LaTeX
-                    width = 1
-                end if
+                if (line(max(1, at - 1):at - 1) /= "\") width = 1  ! else a small blank of LaTeX
             case ("&")
                 columns = columns + 1
                 if (mod(columns, 2) == 0) width = 1

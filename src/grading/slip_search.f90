@@ -241,8 +241,8 @@ contains
                     if (a == b .or. max(a, b) + 8 > samples%last_point) cycle
                     changed = values
                     elsewhere = samples%elsewhere
-                    call place_from(changed, samples, a, b)
-                    call place_from(elsewhere, samples, a, b)
+                    call place_from(changed, a, b)
+                    call place_from(elsewhere, a, b)
                     if (.not. is_mended(changed, elsewhere)) cycle
                     text = "the place of "//samples%symbols%names(a) (3:)
                     text = trim(text)//" must be counted from "//samples%symbols%names(b) (3:)

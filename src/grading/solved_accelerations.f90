@@ -31,7 +31,6 @@ contains
             if (.not. e%depends_on(place)) cycle
             equation = equation_of_motion(coordinate, samples)
             inertia = derivative(equation, place)
-            if (inertia%count == 0) cycle
             if (has_accelerations(inertia, samples)) cycle
             rest = substituted(equation, [place], zero)
             if (has_accelerations(rest, samples)) cycle
@@ -60,7 +59,6 @@ contains
             rest(i) = substituted(equation, places, zeros)
             do j = 1, 2
                 m(i, j) = derivative(equation, places(j))
-                if (m(i, j)%count == 0) m(i, j) = whole(0)
                 if (has_accelerations(m(i, j), samples)) return
             end do
         end do

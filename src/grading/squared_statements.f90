@@ -47,7 +47,6 @@ contains
         logical, intent(inout) :: right_one, found  !! become true where the sizes agree
         real(dp), allocatable :: values(:, :), results(:, :)
         logical :: known, yes
-        integer :: i
 
         if (left%count /= 1 .or. left%nodes(1)%kind /= kind_symbol) return
         if (left%nodes(1)%which /= samples%frequency) return
@@ -56,8 +55,11 @@ contains
         if (.not. yes) return
         allocate (results(size(values, 1), right%count))
         call evaluate_nodes(right, values, results)
-        if (.not. (any(results(:, right%count) > 0.0_dp) .or. &
-                   any([(right%depends_on(samples%place(i)), i=1, size(samples%place))]))) return
+        if (.not. any(results(:, right%count) > 0.0_dp)) then
+            values(:, samples%place) = -values(:, samples%place)
+            call evaluate_nodes(right, values, results)
+            if (.not. any(results(:, right%count) > 0.0_dp)) return
+        end if
         right_one = .true.
         found = .true.
     end subroutine compare_sizes

@@ -4,6 +4,7 @@ module lagrangia_stated_equilibria
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(+), whole
+    use lagrangia_gyroscopic, only: gyroscopic_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
@@ -162,15 +163,15 @@ contains
         others = pack([(j, j=1, n)], [(j, j=1, n)] /= coordinate)
         do j = 1, n
             do i = 1, n
-                if (force(j)%count > 0) slope(j, i) = derivative(force(j), 1 + i)
+                slope(j, i) = derivative(force(j), 1 + i)
             end do
         end do
         do pass = 1, most
             if (n == 1) exit
             do j = 1, n
-                forces(:, j) = value(force(j), values)
+                forces(:, j) = values_of(force(j), values)
                 do i = 1, n
-                    slopes(:, j, i) = value(slope(j, i), values)
+                    slopes(:, j, i) = values_of(slope(j, i), values)
                 end do
             end do
             changes = 0.0_dp
@@ -187,14 +188,13 @@ contains
         found = all_finite(values(:, 2:n + 1))
         do j = 1, n
             if (.not. found) return
-            if (force(j)%count == 0) cycle
             call holds(force(j), values, found, judged)
             found = found .and. judged
         end do
     end subroutine find_rest
 
     subroutine forces_at_rest(samples, force)
-        !! \(\partial L/\partial q_j+Q_j\); without nodes where there is none.
+        !! \(\partial L/\partial q_j+Q_j\).
         type(samples_t), intent(in) :: samples    !! know L and the forces
         type(expression_t), intent(out) :: force(:)
         type(expression_t), allocatable :: formulas(:)
@@ -206,11 +206,7 @@ contains
             which = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + j)))
             if (which == 0) cycle
             associate (beside => samples%symbols%definitions(which)%meaning)
-                if (force(j)%count == 0) then
-                    force(j) = in_coordinates(beside, samples)
-                else
-                    force(j) = force(j) + in_coordinates(beside, samples)
-                end if
+                force(j) = force(j) + in_coordinates(beside, samples)
             end associate
         end do
     end subroutine forces_at_rest
@@ -219,7 +215,8 @@ contains
         !! The linearised equations there, \(M=\partial^2L/\partial\dot q^2\),
         !! \(K_{ij}=-\partial F_i/\partial q_j\), \(B_{ij}=\partial^2L/\partial\dot q_i\partial q_j-
         !! \partial^2L/\partial q_i\partial\dot q_j-\partial Q_i/\partial\dot q_j\), F and Q the
-        !! forces; and \(\omega^2\), of several coordinates where B is 0 and K symmetric.
+        !! forces; and \(\omega^2\), of several coordinates where B is 0 or
+        !! antisymmetric, and K symmetric.
         real(dp), intent(in) :: values(:, :)        !! states at rest there
         logical, intent(in) :: instead              !! of another one that is known
         type(samples_t), intent(inout) :: samples   !! get it as the other equilibrium
@@ -227,6 +224,7 @@ contains
         type(expression_t) :: force(samples%ndof), momentum
         real(dp), dimension(draws, samples%ndof, samples%ndof) :: m, b, k
         real(dp), allocatable :: omega2(:), modes(:, :)
+        complex(dp), allocatable :: lambda(:), turned(:, :)
         real(dp) :: at(draws, size(values, 2))
         type(error_t), allocatable :: error
         integer :: draw, i, j, n
@@ -259,27 +257,22 @@ contains
             else if (all(is_zero(b(draw, :, :)))) then
                 call normal_modes(k(draw, :, :), m(draw, :, :), omega2, modes, error)
                 if (.not. allocated(error)) samples%omega2(draw, n + 1:) = omega2
+            else
+                call gyroscopic_modes(k(draw, :, :), b(draw, :, :), m(draw, :, :), lambda, turned, &
+                                      error)
+                if (allocated(error)) cycle  ! with drag
+                if (all(is_zero(aimag(lambda**2)))) samples%omega2(draw, n + 1:) = -real(lambda**2)
             end if
         end do
     contains
         function slope_of(formula, symbol) result(slopes)
-            !! Its derivative there; 0 where it has no nodes.
+            !! Its derivative there.
             type(expression_t), intent(in) :: formula
             integer, intent(in) :: symbol
             real(dp) :: slopes(draws)
 
-            slopes = 0.0_dp
-            if (formula%count > 0) slopes = value(derivative(formula, symbol), at)
+            slopes = values_of(derivative(formula, symbol), at)
         end function slope_of
     end subroutine keep
 
-    function value(formula, values)
-        !! 0 where it has no nodes.
-        type(expression_t), intent(in) :: formula
-        real(dp), intent(in) :: values(:, :)
-        real(dp) :: value(size(values, 1))
-
-        value = 0.0_dp
-        if (formula%count > 0) value = values_of(formula, values)
-    end function value
 end module lagrangia_stated_equilibria

@@ -39,9 +39,7 @@ contains
                       result%verdict == is_unreadable)) return
         call begin_there(homework, system, samples, there, found, at_rest)
         if (.not. found) return
-        one_energy = samples%symbols%find("E") > 0
-        if (one_energy) one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), &
-                                                              there)
+        one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
         call judge_sheet(homework, d, insisted, there, library, attempt)
         do i = 1, size(result)
             if (homework%statements(i)%small) cycle

@@ -208,7 +208,6 @@ contains
                 if (any([(stated(k)%depends_on(c), k=1, size(stated))])) cycle
                 if (is_known() .and. is_start_name(trim(symbols%names(c)))) cycle
                 slope = derivative(value, c)
-                if (slope%count == 0) cycle
                 call holds(slope, values, never, known)
                 is_free = is_free .or. .not. never
             end do
@@ -297,7 +296,6 @@ contains
 
         beginning(1) = whole(0)
         value = rate_of(f, times)
-        if (value%count > 0) value = substituted(value, [1], beginning)
-        if (value%count == 0) value = whole(0)
+        value = substituted(value, [1], beginning)
     end function at_start
 end module lagrangia_stated_starts

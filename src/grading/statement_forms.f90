@@ -52,7 +52,6 @@ contains
         first = opened + 1
         do while (first <= len(name))
             last = first + scan(name(first:), ",)") - 1
-            if (last < first) return
             place = samples%symbols%find(samples%symbols%spelling(trim(adjustl( &
                                                                   name(first:last - 1)))))
             if (place == 0 .or. place > 1 + 3*samples%ndof) return

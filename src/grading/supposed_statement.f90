@@ -119,7 +119,7 @@ contains
             real(dp), intent(in) :: omega2
             real(dp), intent(out) :: result
 
-            values(1, samples%frequency) = sqrt(abs(omega2))
+            values(1, samples%frequency) = sqrt(omega2)
             values(1, samples%frequency + 1) = omega2
             call evaluate_nodes(residual, values, nodes)
             result = nodes(1, residual%count)

@@ -34,6 +34,7 @@ module lagrangia_verdict
         type(expression_t) :: residual
         !! left less right of the first pair, or of the wrong one
         logical :: of_motion = .false.        !! it holds on the motion only
+        logical :: of_constant = .false.      !! `... = const`, and the residual is its rate
         character(:), allocatable :: defines  !! the new name, where it is a definition
         logical :: contradicts = .false.      !! which mostly means something else
         logical :: of_oscillation = .false.   !! or is a frequency or a period of one

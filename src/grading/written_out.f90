@@ -67,7 +67,7 @@ contains
         places = energy_places(samples)
         call energy_formulas(samples, formulas)
         do i = 1, size(places)
-            if (places(i) == 0 .or. formulas(i)%count == 0) cycle
+            if (places(i) == 0) cycle
             if (e%depends_on(places(i))) e = substituted(e, places(i:i), formulas(i:i))
         end do
         e = with_letters(e, samples, .true.)
@@ -144,7 +144,7 @@ contains
                 if (e%depends_on(which)) e = substituted(e, [which], meaning)
                 which = samples%rate(which)
                 if (which == 0) exit
-                if (order < 2) meaning(1) = time_derivative(meaning(1), samples%rate, 1)
+                meaning(1) = time_derivative(meaning(1), samples%rate, 1)
             end do
         end do
     end function with_letters

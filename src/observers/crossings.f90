@@ -210,7 +210,6 @@ contains
         from = t
         do
             from = start + 0.5_dp*(from - start)
-            if (from <= start) exit
             if (f%value(from) > 0.0_dp) return
             if (from - start <= spacing(start)) exit
         end do

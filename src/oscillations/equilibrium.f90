@@ -92,7 +92,7 @@ contains
 
         call expand_at_rest(system, q, m, k, g)
         call expand_at_rest(system, q + 4.0_dp*spacing(q), m, other, g)
-        yes = all(abs(other - k) <= same*maxval(abs(k)))
+        yes = all(abs(other - k) <= same*maxval(abs(k)) + tiny(k)/epsilon(k))
     end function is_resolved
 
     pure subroutine leave_noise_out(system, usual, q)

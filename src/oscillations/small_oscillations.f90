@@ -325,7 +325,7 @@ contains
         if (allocated(modes%quadrature)) then
             w = cmplx(modes%shapes(:, j), modes%quadrature(:, j), dp)
             do k = 1, j - 1
-                if (.not. abs(modes%omega(j) - modes%omega(k)) <= near*modes%omega(j) .or. &
+                if (.not. modes%omega(j) - modes%omega(k) <= near*modes%omega(j) .or. &
                     modes%label(j) /= is_oscillation .or. modes%label(k) /= is_oscillation) cycle
                 u = cmplx(modes%shapes(:, k), modes%quadrature(:, k), dp)
                 if (abs(dot_product(u, w)) >= (1.0_dp - near)*norm2(abs(u))*norm2(abs(w))) return
@@ -343,7 +343,6 @@ contains
 
         yes = .false.
         if (.not. allocated(modes%gyroscopic)) return
-        if (size(modes%gyroscopic, 2) /= size(modes%shapes, 1)) return
         associate (g => modes%gyroscopic, u => modes%shapes(:, j))
             yes = maxval(abs(matmul(g, u))) > 1e-9_dp*maxval(abs(g))*maxval(abs(u))
         end associate

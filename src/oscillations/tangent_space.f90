@@ -47,10 +47,12 @@ contains
         type(hyperdual_t) :: t, qq(size(q)), rows(system%constraints, size(q))
         type(hyperdual_t) :: drift(system%constraints)
         real(dp) :: square(max(size(q), system%constraints), size(q))
+        logical :: tied
         integer :: i, m, n
 
         n = size(q)
         m = system%constraints
+        tied = .false.
         allocate (tangent%rows(m, n), tangent%turn(m, n, n))
         qq%re = q
         t%d2 = 1.0_dp
@@ -58,12 +60,17 @@ contains
             qq(i)%d1 = 1.0_dp
             call system%constraint_rows(t, qq, rows, drift)
             tangent%turn(:, :, i) = rows%d1
+            tied = tied .or. any(is_nonzero(drift%d1))
             qq(i)%d1 = 0.0_dp
         end do
         tangent%rows = rows%re
-        if (any(is_nonzero(rows%d2)) .or. any(is_nonzero(drift%re))) then
+        if (any(is_nonzero(rows%d2)) .or. any(is_nonzero(drift%re)) .or. &
+            any(is_nonzero(drift%d2))) then
             call fail(error, "a constraint contains the time: there is no equilibrium to "// &
                       "oscillate about")
+            return
+        else if (tied) then
+            call fail(error, "a constraint ties velocities to places: no modes are known then")
             return
         end if
         square = 0.0_dp

@@ -47,7 +47,7 @@ contains
                json_item("parts", parts_json(figure))// &
                json_item("places", places_json(r, channels))
         call add_states(system, frames, n, film, channels)
-        if (present(kinetic) .and. present(potential)) then
+        if (present(kinetic)) then
             call add_energies(kinetic, potential, .true., film, channels)
         else
             allocate (moving(n), rest(n))

@@ -100,11 +100,13 @@ contains
         finer%method = workhorse
         finer%compensated = .false.
         finer%tolerance = fine_tolerance
+        finer%samples = int(frames%count - 1, i8)  ! a scene with steps has none
         title = finer_run
         call record_frames(finer, system, closed_form, frames%interval*(frames%count - 1), &
                            frames%count - 1, reference, error)
         if (allocated(error)) reference%count = 0
         reference%count = min(reference%count, frames%count)
+        if (reference%count == 0) title = ""
     end subroutine add_reference
 
     function finer_words() result(text)

@@ -32,7 +32,7 @@ contains
             html = "<h3>The system</h3>"//newline
         else
             html = "<h3>What the lecture has</h3>"//newline
-            if (d%source /= "") html = html//paragraph(d%source)
+            html = html//paragraph(d%source)
         end if
         if (line_of_system(trim(d%name)) /= "") then
             html = html//paragraph(line_of_system(trim(d%name)))
@@ -43,7 +43,7 @@ contains
                 html = html//code(d%equations(i))
             end do
         end if
-        if (constraint_text(d) /= "") html = html//paragraph("Constraints: "//constraint_text(d))
+        html = html//paragraph("Constraints: "//constraint_text(d))
         if (allocated(d%frequencies)) then
             do i = 1, size(d%frequencies)
                 html = html//code(trim(d%frequencies(i)%equation)//"   at "// &

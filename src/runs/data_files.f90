@@ -124,8 +124,7 @@ contains
         character(:), allocatable :: script
         integer :: dot
 
-        dot = index(path, ".", back=.true.)
-        if (dot <= index(path, "/", back=.true.)) dot = len(path) + 1
+        dot = max(1, index(path, ".", back=.true.))
         if (path(dot:) /= endings(1)) dot = len(path) + 1
         script = path(:dot - 1)//".gp"
     end function script_path

@@ -143,7 +143,7 @@ contains
             if (k > size(self%drifts)) return
             if (self%drifts(k)%value < 1.0_dp .or. &
                 epsilon(1.0_dp)*self%energy_terms < 0.01_dp*self%drifts(k)%value) return
-            if (self%energy_terms > huge(1.0_dp)) then
+            if (.not. self%energy_terms <= huge(1.0_dp)) then  ! NaN, too
                 call add("the terms of the energy have grown beyond what a double holds: their "// &
                          "drift says nothing about the motion")
                 return
@@ -205,8 +205,7 @@ contains
         type(claim_t), intent(in) :: measure
         character(:), allocatable :: name
 
-        name = trim(measure%name)
-        if (index(name, "_drift") > 0) name = name(:index(name, "_drift") - 1)
+        name = measure%name(:index(measure%name, "_drift") - 1)
     end function quantity_of
 
     pure function number(value) result(text)

@@ -35,7 +35,7 @@ contains
 
         call system%describe(d)
         text = ""
-        do i = 1, min(size(d%coordinates), size(scene%q))
+        do i = 1, size(d%coordinates)
             text = degrees_in(scene%q(i:i), trim(d%coordinates(i)%unit))
             if (text == "") cycle
             text = trim(d%coordinates(i)%name)//" starts at "//to_text(scene%q(i))//" rad"//text

@@ -96,7 +96,12 @@ contains
             values%d2 = values%d1
             call program%evaluate(values, results)
             do i = 1, size(keys)
-                if (ieee_is_finite(results(i)%re + results(i)%d1 + results(i)%d12)) cycle
+                if (k == 0) then  ! 0 times an infinite derivative is NaN
+                    if (ieee_is_finite(results(i)%re)) cycle
+                else
+                    if (.not. formulas(i)%depends_on(k)) cycle
+                    if (ieee_is_finite(results(i)%d1 + results(i)%d12)) cycle
+                end if
                 if (.not. has_key(tree, group, keys(i))) cycle
                 if (k == 0) then
                     call refuse_value(tree, group, keys(i), "is no finite number "//state// &

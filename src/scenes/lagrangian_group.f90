@@ -368,7 +368,7 @@ contains
         if (index(key, "q_") == 1) key = force_key(tree, key(3:))
         at = column_of(found%message)
         message = found%message
-        if (element > 0 .and. .not. is_formula(key)) then
+        if (.not. is_formula(key)) then
             allocate (texts(0))
             call get_strings(tree, group, key, 1, most, texts, error)
             call expand_ranges(texts, single, from, problem)
@@ -379,7 +379,7 @@ contains
                 if (single(element) /= texts(from(element))) at = 0
                 element = from(element)
             end if
-        else if (is_formula(key)) then
+        else
             allocate (texts(0))
             call get_strings(tree, group, key, 1, most, texts, error)
             do element = 1, size(texts) - 1

@@ -103,7 +103,6 @@ contains
         steps = nint(max(1.0_dp, min(1e15_dp, every*before/now)), i8)
         if (steps == every) return
         call apply_override(tree, group//"%every="//to_text(steps), error)
-        if (remark /= "") remark = remark//"; "
         if (steps*now > 1.5_dp*every*before) then
             remark = remark//"every = "//to_text(steps)//": a row each "//to_text(now)// &
                      " s, where the file has one each "//to_text(every*before)//" s"

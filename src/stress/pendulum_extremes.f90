@@ -69,7 +69,7 @@ contains
         p = default_values(d)
         a = 1.0_qp
         b = cos(0.5_qp*theta0)
-        do while (abs(a - b) > 1e-20_qp*a)
+        do while (a - b > 1e-20_qp*a)
             next = 0.5_qp*(a + b)
             b = sqrt(a*b)
             a = next

@@ -3,6 +3,7 @@ module lagrangia_bound_system
     !! \(A(t, q)\,\dot q + b(t, q) = 0\): who has some gives `constraint_rows`, and, of holonomic
     !! ones, `constraint_values`; how a state is put onto them follows.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, velocity_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
@@ -103,7 +104,7 @@ contains
             call solve_linear(a(:, last), -matmul(a, v) - drift, bound, error)
             if (.not. allocated(error)) v(last) = bound
         else
-            call fail(error, "v takes "//to_text(n - m)//" values ("//names_of(self, free)// &
+            call fail(error, "v takes "//counted(n - m, "value")//" ("//names_of(self, free)// &
                       ") or all "//to_text(n)//", not "//to_text(size(given)))
         end if
     end subroutine complete_velocities
@@ -175,6 +176,11 @@ contains
             if (.not. ieee_is_finite(values(k))) then
                 call fail(error, "constraint "//to_text(k)//" is no finite number there; start "// &
                           "elsewhere")
+                return
+            end if
+            if (.not. ieee_is_finite(sizes(k))) then
+                call fail(error, "constraint "//to_text(k)//" has no finite derivatives there; "// &
+                          "start elsewhere")
                 return
             end if
             near = q

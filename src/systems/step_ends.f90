@@ -129,7 +129,7 @@ contains
         real(dp), intent(in) :: a(:, :), b(:, :)  !! constraints by their rows, (m, n)
         real(dp), intent(in) :: weights(:)        !! \(W\), diagonal, positive, (n)
         logical :: yes
-        real(dp) :: c(size(a, 1), size(a, 1)), row(size(a, 1)), scale
+        real(dp) :: c(size(a, 1), size(a, 1)), row(size(a, 1))
         integer :: i, k, m
         logical :: positive
 
@@ -140,8 +140,7 @@ contains
             end do
             yes = .not. c(i, i) > 0.0_dp
             if (yes) return
-            scale = maxval(abs(c(i, :)))
-            if (scale > 0.0_dp) c(i, :) = c(i, :)/scale
+            c(i, :) = c(i, :)/maxval(abs(c(i, :)))
         end do
         positive = .true.
         do i = 1, m

@@ -157,14 +157,9 @@ contains
         character(name_length), intent(out) :: name
         type(error_t), allocatable, intent(out) :: error
 
-        name = ""
-        if (len_trim(adjustl(text)) > name_length - len(before)) then
-            call fail(error, "too long")
-        else
-            name = adjustl(text)
-            call check_name(before//trim(name), error)
-            if (name == "") call fail(error, "there is none")
-        end if
+        name = adjustl(text)
+        call check_name(before//trim(adjustl(text)), error)
+        if (name == "") call fail(error, "there is none")
     end subroutine read_name
 
     subroutine parse_without(text, n, problem, symbols, expression, error)

@@ -21,7 +21,8 @@ contains
         character(*), intent(in) :: name  !! of a column
         logical :: small
 
-        small = index(name, "_drift") > 0 .or. name == "error"
+        small = name == "error"
+        if (len_trim(name) > 6) small = small .or. name(len_trim(name) - 5:) == "_drift"
     end function is_small
 
     pure function label(name, unit) result(string)

@@ -95,10 +95,6 @@ contains
         if (length == len(text)) return
         if (scan(text(length + 1:length + 1), "eEdD") == 0) return
         first = length + 2
-        if (first <= len(text)) then
-            if (scan(text(first:first), "+-") > 0) first = first + 1
-        end if
-        if (first > len(text)) return
         more = verify(text(first:)//" ", digits) - 1
         if (more == 0) return
         if (first + more <= len(text)) then

@@ -87,8 +87,7 @@ contains
 
         do k = 1, self%columns
             wide(k) = len(self%names(k)%text) + 2
-            if (self%rows > 0) wide(k) = max(wide(k), 2 + &
-                                             maxval(len_trim(self%cells(k, :self%rows)%shown)))
+            wide(k) = max(wide(k), 2 + maxval(len_trim(self%cells(k, :self%rows)%shown)))
         end do
         names = 1
         do k = 2, self%columns

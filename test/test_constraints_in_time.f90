@@ -1,0 +1,47 @@
+module test_constraints_in_time
+    !! Constraints that contain the time, beside others that do not.
+    use funit, only: TestMethod, TestSuite, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
+    implicit none (type, external)
+    private
+    public :: constraints_in_time_suite
+
+contains
+
+    function constraints_in_time_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("constraints_in_time")
+        call suite%addTest(TestMethod("one_of_two_constraints_contains_the_time", &
+                                      one_of_two_constraints_contains_the_time))
+    end function constraints_in_time_suite
+
+    subroutine one_of_two_constraints_contains_the_time()
+        !! Holonomic, where its drift is constant, and not, where it grows with the time; the other
+        !! does not move.
+        call judge("'x = t', 'y = 2 z'")
+        call judge("'x_dot = t^2', 'y_dot = 2 z_dot'")
+    contains
+        subroutine judge(constraints)
+            character(*), intent(in) :: constraints
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(scene_t) :: scene
+            type(word_t) :: none(0)
+
+            call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 0, 0.2, 0.1 / "// &
+                             "&lagrangian coordinates = 'x', 'y', 'z', parameters = 'm', T = "// &
+                             "'m/2 (x_dot^2 + y_dot^2 + z_dot^2)', constraint = "// &
+                             constraints//" / &o m = 1 /", "text", none, scene, system, error)
+            call assertFalse(allocated(error), "read: "//constraints)
+            if (allocated(error)) return
+            call assertTrue(system%time_dependent, "time_dependent: "//constraints)
+            call assertTrue(system%constraints_work, "constraints_work: "//constraints)
+        end subroutine judge
+    end subroutine one_of_two_constraints_contains_the_time
+end module test_constraints_in_time
