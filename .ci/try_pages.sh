@@ -43,7 +43,7 @@ page() { # page FILTER WORDS...: what the program prints for WORDS, through the 
 
 costless() { # without what a run costs, which folder it wrote to, and digits that rounding decides
     grep -v -e "^lagrangia: .* takes about " -e "^lagrangia: this build is not optimised" |
-        sed -E -e "s,$work/,,g" -e 's/^([#!] lagrangia) [0-9]+\.[0-9]+\.[0-9]+:/\1:/' -e 's/[0-9]+ steps, [0-9]+ evaluations (.*, )[0-9.]+ s$/~ steps, ~ evaluations \1~ s/' \
+        sed -E -e "s,$work/,,g" -e 's/^([#!] lagrangia) [0-9]+\.[0-9]+\.[0-9]+:/\1:/' -e 's/[0-9]+ steps?, [0-9]+ evaluations (.*, )[0-9.]+ s$/~ steps, ~ evaluations \1~ s/' \
             -e 's/"(seconds|threads|steps|evaluations)": [0-9.E+-]+/"\1": ~/g' -e 's/(  [0-9]+ +[0-9]+ .*[^ ]) +[0-9.]+$/\1 ~/' \
             -e 's/ in [0-9.E+-]+ s by [0-9]+ process(es)?/ in ~/' -e 's/^(  [^ ]+ +[0-9]+ +[0-9]+) +[0-9.e-]+$/\1 ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' \
             -e 's/([0-9]\.[0-9]{9})[0-9]+/\1/g' | plain
@@ -269,6 +269,7 @@ written '*.html' modes .ci/inputs/_bare.nml --animate
 written '*' run .ci/inputs/swing_8.nml .ci/inputs/swing_4.nml --overlay
 written '*.gp' run .ci/inputs/swing_4.nml .ci/inputs/swing_8.nml --overlay
 written '*.gp' compare pendulum --starts '1:1 1:-1' --set scene%duration=0.5
+written '*.gp' sweep .ci/inputs/height.nml
 written '*.gp' run .ci/inputs/two_springs.nml
 written '*.gp' run .ci/inputs/sea.nml --set scene%columns=t,x,y_drift_2,energy_drift --set scene%plot=y_drift_2+energy_drift
 written '*.gp' run pendulum --set scene%plot='theta+energy_drift' --set scene%columns=t,theta,energy_drift --set scene%dt=0.05 --set scene%duration=2000 --set scene%every=1

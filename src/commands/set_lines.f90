@@ -58,7 +58,7 @@ contains
                 do k = 1, i - 1
                     attempt%of(k) = result%of(k)
                 end do
-                call keep_consequences(attempt, i)
+                call keep_consequences(homework, attempt, i)
             end if
             call move_alloc(attempt%of, result%of)
             call move_alloc(attempt%kept, result%kept)
@@ -101,8 +101,9 @@ contains
         end do
     end function settings_before
 
-    pure subroutine keep_consequences(result, first)
+    pure subroutine keep_consequences(homework, result, first)
         !! What follows from a mistake in front of a line `set:` is wrong where that holds there.
+        type(homework_t), intent(in) :: homework
         type(grade_t), intent(inout) :: result
         integer, intent(in) :: first     !! the first statement behind that line
         integer :: k
@@ -112,6 +113,8 @@ contains
             if (.not. allocated(result%of(k)%because)) cycle
             result%of(k)%because = pack(result%of(k)%because, &
                                         result%of(result%of(k)%because)%verdict == is_wrong)
+            if (size(result%of(k)%because) == 1) result%of(k)%remark = "from line "// &
+                to_text(homework%statements(result%of(k)%because(1))%line)//", which is wrong"
             if (size(result%of(k)%because) > 0) cycle
             result%of(k)%verdict = is_wrong
             result%of(k)%remark = "with what the lines 'set:' before it fix"
