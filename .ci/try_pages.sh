@@ -269,7 +269,7 @@ written '*.html' modes .ci/inputs/_bare.nml --animate
 written '*' run .ci/inputs/swing_8.nml .ci/inputs/swing_4.nml --overlay
 written '*.gp' run .ci/inputs/swing_4.nml .ci/inputs/swing_8.nml --overlay
 written '*.gp' compare pendulum --starts '1:1 1:-1' --set scene%duration=0.5
-written '*.gp' sweep .ci/inputs/height.nml
+written '*.gp' sweep .ci/inputs/height.nml --over h0=-5:5:2 --over height_dot=-1:1:2
 written '*.gp' run .ci/inputs/two_springs.nml
 written '*.gp' run .ci/inputs/sea.nml --set scene%columns=t,x,y_drift_2,energy_drift --set scene%plot=y_drift_2+energy_drift
 written '*.gp' run pendulum --set scene%plot='theta+energy_drift' --set scene%columns=t,theta,energy_drift --set scene%dt=0.05 --set scene%duration=2000 --set scene%every=1
