@@ -50,9 +50,9 @@ contains
         integer :: i
 
         call find_product([(1e-9_dp, i=1, draws)], none, product, found)
-        call assertFalse(found)
+        call assertFalse(found, message="no product")
         call find_product([(0.5_dp, i=1, draws)], none, product, found)
-        call assertTrue(found)
+        call assertTrue(found, message="a product")
         call assertEqual(3, product%count, message="1/2")
     end subroutine tiny_factors_are_no_fractions
 end module test_letter_products

@@ -26,9 +26,10 @@ contains
 
         x = [0.0_dp, -0.0_dp, tiny(x), -tiny(x), ieee_value(1.0_dp, ieee_negative_inf), &
              ieee_value(1.0_dp, ieee_quiet_nan)]
-        call assertTrue(all(is_zero(x) .eqv. [.true., .true., .false., .false., .false., .false.]))
+        call assertTrue(all(is_zero(x) .eqv. [.true., .true., .false., .false., .false., &
+                                              .false.]), message="is it zero?")
         call assertTrue(all(is_nonzero(x) .eqv. [.false., .false., .true., .true., .true., &
-                                                 .false.]))
+                                                 .false.]), message="is it not?")
     end subroutine zero_has_two_signs
 
     subroutine one_that_is_not_finite_is_enough()

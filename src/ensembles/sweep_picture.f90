@@ -183,6 +183,7 @@ contains
         integer, parameter :: room = 80        !! characters beside the whole column of colours
         character(:), allocatable :: place, text
         type(description_t) :: d
+        logical :: plain
         integer :: i
 
         call sweep%system%describe(d)
@@ -191,13 +192,15 @@ contains
             place = "0 not settled"
             if (i > 0) place = to_text(i)//" "//found%attractors%place_of(i, d)
             text = with_symbols(place)
-            if (text == "") text = place  ! without any symbol
+            plain = i == 0 .or. text == ""  ! a word, without any symbol
+            if (plain) text = place
             if (width_of(text)*(largest - least + 1) > room) then
                 line = ""
                 return
             end if
             line = line//"; set label "//gnuplot_string(text)//" at graph 1.13,"//to_text( &
-                   (i - least + 0.5_dp)/(largest - least + 1))//" center rotate by 90"
+                   (i - least + 0.5_dp)/(largest - least + 1))//" center rotate by 90"// &
+                   trim(merge(" noenhanced", "           ", plain .and. i > 0))
         end do
         line = "unset cbtics"//line
     end function attractor_places
