@@ -5,6 +5,7 @@ module lagrangia_audit_closed_forms
     !! A motion is differentiated twice: it must begin at the start, and have the accelerations that
     !! the code computes on the way. A frequency must be one of those of the equilibrium, found from
     !! the second derivatives of L.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_audit_equations, only: compare
     use lagrangia_description, only: description_t, frequency_t
     use lagrangia_errors, only: error_t, fail
@@ -14,7 +15,6 @@ module lagrangia_audit_closed_forms
     use lagrangia_ledger, only: ledger_t
     use lagrangia_linearised, only: linearised_t
     use lagrangia_named_values, only: motion_state_t
-    use lagrangia_number_class, only: all_finite
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_statements, only: statements_t
     use lagrangia_system, only: system_t
@@ -136,7 +136,7 @@ contains
         state%t = nearby%t(k)
         do tries = 1, 5
             call statements%evaluate_rates(nearby%systems(k)%item, d, state, coordinates, path)
-            if (all_finite(path%d12)) exit
+            if (all(ieee_is_finite(path%d12))) exit
             state%t = 1e-3_dp*state%t
         end do
         state%q = path%re

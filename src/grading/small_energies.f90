@@ -147,7 +147,7 @@ contains
                     call put_series(difference, i, j, dot_product(signs, term%re), &
                                     dot_product(signs, term%d1), dot_product(signs, term%d12))
                     scale = max(scale, sum(abs(term%re)), sum(abs(term%d1)), sum(abs(term%d12)))
-                    if (.not. all_finite(term%d12)) scale = ieee_value(1.0_dp, &
+                    if (.not. all(ieee_is_finite(term%d12))) scale = ieee_value(1.0_dp, &
                                                                                 ieee_quiet_nan)
                     if (.not. ieee_is_finite(scale)) return
                 end do

@@ -15,7 +15,6 @@ module lagrangia_constrained_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_lagrangian_system, only: is_spare, near_states, trial_state
-    use lagrangia_number_class, only: all_finite
     use lagrangia_pfaffian, only: pfaffian_t
     use lagrangia_system, only: each_lane
     use lagrangia_text, only: to_text
@@ -197,7 +196,7 @@ contains
             call trial_state(k, t, q, v)
             call self%keep_constraints(t, q, v)
             call links%forms(hyperdual([q, t]), a)
-            if (.not. all_finite(a%re)) cycle
+            if (.not. all(ieee_is_finite(a%re))) cycle
             if (.not. ieee_is_finite(links%frobenius([q, t]))) cycle
             used = used + 1
             integrable = integrable .and. links%integrable([q, t])

@@ -9,7 +9,7 @@ module lagrangia_lagrangian_system
     !!
     !! L must be of degree two in the velocities, its mass matrix positive definite. Forces that L
     !! lacks are in `generalised_forces`.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_bound_system, only: bound_system_t
     use lagrangia_description, only: description_t
     use lagrangia_elimination, only: solve_positive
@@ -196,7 +196,7 @@ contains
             qq = hyperdual_t()
             qq%re = q
             call self%constraint_rows(tt, qq, rows, drift)
-            if (.not. (all_finite(rows%re) .and. all_finite(drift%re))) cycle
+            if (.not. (all(ieee_is_finite(rows%re)) .and. all(ieee_is_finite(drift%re)))) cycle
             moving = is_nonzero(drift%re)
             self%constraints_work = self%constraints_work .or. any(moving)
             self%time_dependent = self%time_dependent .or. any(is_nonzero(rows%d1)) .or. &
