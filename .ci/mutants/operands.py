@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which operands never make a difference, whatever the tests try: holes for mutants, without drawing any.
 
-    .ci/mutants/operands.py --instrument [--mods FOLDER]   in a clone that has been built: rewrite its sources
+    .ci/mutants/operands.py --instrument [--mods FOLDER]   in a clone, built from nothing: rewrite its sources
     fpm build --tests --flag "-O1 -ffree-line-length-none"
     OPERANDS_FILE=$PWD/seen UNIT_TESTS; OPERANDS_FILE=$PWD/seen .ci/try_pages.sh PROGRAM
     .ci/mutants/operands.py --report seen [src/grading]    the places that nothing distinguishes
@@ -200,8 +200,8 @@ def instrument(mods):
         file.write(module_text())
     with open(os.path.join(ROOT, "src", "operands_note.c"), "w") as file:
         file.write(NOTE)
-    flags = ["gfortran", "-cpp", "-DLAGRANGIA_NATIVE", "-fopenmp", "-fcoarray=single", "-ffree-line-length-none", "-J" + work]
-    subprocess.run([*flags, "-c", own, "-o", os.path.join(work, "own.o")], check=True)
+    flags = ["gfortran", "-cpp", "-DLAGRANGIA_NATIVE", "-fopenmp", "-fcoarray=single", "-ffree-line-length-none"]
+    subprocess.run([*flags, "-J" + work, "-c", own, "-o", os.path.join(work, "own.o")], check=True)
     places = []
     for folder, _, names in os.walk(os.path.join(ROOT, "src")):
         for name in sorted(names):
@@ -216,7 +216,9 @@ def instrument(mods):
                 trial = os.path.join(work, name)
                 with open(trial, "w") as file:
                     file.write("\n".join(text for _, text in rewritten))
-                run = subprocess.run([*flags, "-fsyntax-only", "-I" + mods, trial], capture_output=True, text=True)
+                with tempfile.TemporaryDirectory() as unread:  # else its modules would be taken for the build's
+                    run = subprocess.run([*flags, "-fsyntax-only", "-J" + unread, "-I" + mods, "-I" + work, trial],
+                                         capture_output=True, text=True)
                 if run.returncode == 0:
                     break
                 bad = {rewritten[int(n) - 1][0] for n in re.findall(r"\.f90:(\d+):\d+:", run.stderr)}
@@ -226,6 +228,7 @@ def instrument(mods):
                 del places[first:]
                 left_alone |= bad
             os.replace(trial, path)
+    os.makedirs(os.path.dirname(PLACES), exist_ok=True)
     with open(PLACES, "w") as file:
         json.dump(places, file)
     print(f"{len(places)} places note their operands")
