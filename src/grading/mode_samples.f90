@@ -83,9 +83,9 @@ contains
 
             call put_forces(modes, samples%stiffness(:, :, draw), samples%turning(:, :, draw), &
                             omega2)
+            if (samples%decay == 0) return
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
-            if (samples%decay == 0) return
             call damp(modes, omega2)
             free = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)
             call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
