@@ -34,13 +34,14 @@ module lagrangia_audit
 
 contains
 
-    subroutine audit_system(system, audit, fixed, given, watcher)
+    subroutine audit_system(system, audit, fixed, given, watcher, label)
         !! Add a row for each claim. On return `system` has the parameters of the last draw.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         logical, intent(in), optional :: fixed(:)    !! parameters that stay as `given`
         real(dp), intent(in), optional :: given(:)  !! all parameters; needed with `fixed`
         class(observer_t), intent(inout), optional :: watcher  !! told how far it is
+        character(*), intent(in), optional :: label  !! of the section; without, the system's name
         type(random_t) :: random
         type(description_t) :: d
         type(error_t), allocatable :: error
@@ -50,7 +51,11 @@ contains
         integer :: i, row
 
         call system%describe(d)
-        call audit%section(trim(d%name))
+        if (present(label)) then
+            call audit%section(label)
+        else
+            call audit%section(trim(d%name))
+        end if
         all_free = .true.
         if (present(fixed)) all_free = .not. any(fixed)
         do i = 1, draws

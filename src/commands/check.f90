@@ -12,7 +12,7 @@ module lagrangia_check
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_json, only: json_line
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_ledger, only: ledger_t
+    use lagrangia_ledger, only: group_length, ledger_t
     use lagrangia_ledger_text, only: residual_columns, residual_head, residual_json, &
         residual_line, residual_name
     use lagrangia_method_orders, only: audit_methods
@@ -24,7 +24,7 @@ module lagrangia_check
     use lagrangia_progress, only: about, part_label, progress_t
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
-    use lagrangia_text, only: lower, to_text
+    use lagrangia_text, only: lower, quoted, short_source, shortened, source_length, to_text
     implicit none (type, external)
     private
     public :: check_command
@@ -32,6 +32,9 @@ module lagrangia_check
     type :: audited_t
         !! A system, and which of its parameters were given.
         class(system_t), allocatable :: system
+        character(name_length) :: name = ""      !! the system's
+        character(source_length) :: scene = ""   !! that has the system; empty without one
+        character(group_length) :: label = ""    !! the name, with the scene where names recur
         logical, allocatable :: fixed(:)
         real(dp), allocatable :: given(:)  !! all values, defaults where none was given
     end type audited_t
@@ -44,7 +47,6 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(audited_t), allocatable :: audited(:)
         type(ledger_t) :: audit
-        type(description_t) :: d
         type(progress_t), target :: progress
         type(part_t) :: part
         logical :: json, methods, quiet
@@ -59,12 +61,13 @@ contains
         call audit%section("")
         if (rewrites_lines()) part%whole => progress  ! else `announce` has said it
         do i = 1, size(audited)
-            call audited(i)%system%describe(d)
-            call put_head(trim(d%name))
-            if (console_failed()) return
-            if (.not. quiet) call announce(audited(i)%system, audited(i)%given)
-            call begin_part(trim(d%name), i)
-            call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given, part)
+            associate (one => audited(i))
+                call put_head(shortened(trim(one%label), residual_name - 1))
+                if (console_failed()) return
+                if (.not. quiet) call announce(one%system, one%given)
+                call begin_part(trim(one%label), i)
+                call audit_system(one%system, audit, one%fixed, one%given, part, trim(one%label))
+            end associate
             call put_rows()
         end do
         if (methods) then
@@ -171,6 +174,11 @@ contains
 
         allocate (is_scene(size(line%arguments)))
         do i = 1, size(is_scene)
+            do k = 1, i - 1
+                if (line%arguments(k)%text /= line%arguments(i)%text) cycle
+                call fail(error, quoted(line%arguments(i)%text)//" is given twice")
+                return
+            end do
             is_scene(i) = names_scene(line%arguments(i)%text) &
                           .and. line%arguments(i)%text /= "methods"
         end do
@@ -205,7 +213,22 @@ contains
             call read_scene_system(line%arguments(i)%text, line%values_of("set"), audited(k), error)
             if (allocated(error)) return
         end do
+        call set_labels(audited)
     end subroutine choose
+
+    subroutine set_labels(audited)
+        !! The names of the systems; of those whose name another one has, too, with the scene.
+        type(audited_t), intent(inout) :: audited(:)
+        integer :: i
+
+        do i = 1, size(audited)
+            associate (one => audited(i))
+                one%label = one%name
+                if (one%scene == "" .or. count(audited%name == one%name) == 1) cycle
+                one%label = shortened(trim(one%name)//" ("//trim(one%scene)//")", group_length)
+            end associate
+        end do
+    end subroutine set_labels
 
     subroutine read_scene_system(name, words, audited, error)
         !! The system of a scene, with all its parameters as the scene has them.
@@ -218,6 +241,8 @@ contains
         call read_named_system(name, words, audited%system, error)
         if (allocated(error)) return
         call audited%system%describe(d)
+        audited%name = d%name
+        audited%scene = short_source(name)
         allocate (audited%given, source=default_values(d))
         allocate (audited%fixed(size(audited%given)))
         audited%fixed = .true.
@@ -295,6 +320,7 @@ contains
         integer :: i, first
 
         call audited%system%describe(d)
+        audited%name = d%name
         allocate (audited%given, source=default_values(d))
         allocate (audited%fixed(size(audited%given)))
         audited%fixed = .false.
