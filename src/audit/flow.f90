@@ -1,5 +1,6 @@
 module lagrangia_flow
     !! How fast quantities of a system change along its motion.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -36,16 +37,16 @@ contains
             largest = size_from_state(system, i, t, q, v)
         end if
         call choose_step(system, i, t, q, v, a, largest, h, rate, kept)
-        call slope(system, i, t, q, v, 1.0_dp, zero, zero, h, order8, scale)
+        call slope_inside(system, i, t, q, v, 1.0_dp, zero, zero, h, scale)
         scale = abs(scale)
         carried = 0.0_dp
         do k = 1, size(q)
             one = zero
             one(k) = v(k)
-            call slope(system, i, t, q, v, 0.0_dp, one, zero, h, order8, part)
+            call slope_inside(system, i, t, q, v, 0.0_dp, one, zero, h, part)
             scale = scale + abs(part)
             one(k) = abs(a(k)) + abs(v(k)) + tiny(h)
-            call slope(system, i, t, q, v, 0.0_dp, zero, one, h, order8, part)
+            call slope_inside(system, i, t, q, v, 0.0_dp, zero, one, h, part)
             scale = scale + abs(a(k))*abs(part)/one(k)
             if (present(errors)) carried = carried + errors(k)*abs(part)/one(k)
         end do
@@ -118,6 +119,23 @@ contains
                             + abs(quantity_of(system, i, t, q, v_near) - value)/step
         end do
     end function size_from_state
+
+    subroutine slope_inside(system, i, t, q, v, dt, dq, dv, h, rate)
+        !! `slope` of order 8 with the step `h`, or with as much shorter a one as the edge of where
+        !! the quantity is a number needs: a step along the motion may stay inside where that of
+        !! one coordinate or velocity alone does not.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(:), v(:), dt, dq(:), dv(:), h
+        real(dp), intent(out) :: rate
+        integer, parameter :: most = 30
+        integer :: k
+
+        do k = 0, most
+            call slope(system, i, t, q, v, dt, dq, dv, h*0.25_dp**k, order8, rate)
+            if (ieee_is_finite(rate)) return
+        end do
+    end subroutine slope_inside
 
     subroutine slope(system, i, t, q, v, dt, dq, dv, h, weight, rate, largest)
         !! Derivative of quantity `i` in the direction `(dt, dq, dv)`.

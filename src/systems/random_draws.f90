@@ -109,9 +109,11 @@ contains
 
     subroutine state(self, system, t, q, v, error)
         !! A time, coordinates and velocities that the constraints beside L allow, in the typical
-        !! sizes of the system. Where L is not finite at \(q\) and at \(1.2q\), other coordinates
-        !! are drawn, from a range 0.8 times as wide; where the mass matrix is not positive
-        !! definite, from the same range, and if that is so everywhere such a state is what it is.
+        !! sizes of the system. Where L is not finite at \(q\) and at \(1.2q\), another state is
+        !! drawn, from a range 0.8 times as wide: of the velocities if L is finite at rest, as below
+        !! the speed of light, else of the coordinates. Where the mass matrix is not positive
+        !! definite, it is from the same range, and if that is so everywhere such a state is what
+        !! it is.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system             !! configured
         real(dp), intent(out) :: t                        !! -2 to 3 typical times, s
@@ -120,7 +122,7 @@ contains
         integer, parameter :: tries = 100
         type(description_t) :: d
         type(error_t), allocatable :: outside
-        real(dp) :: given(system%ndof - system%constraints), widest
+        real(dp) :: given(system%ndof - system%constraints), widest, fastest
         integer :: i, k
 
         allocate (q(system%ndof), v(system%ndof))
@@ -128,19 +130,20 @@ contains
         call self%uniform(-2.0_dp, 3.0_dp, t)
         t = d%typical_time*t
         widest = 3.0_dp
+        fastest = 3.0_dp
         do k = 1, tries
             do i = 1, system%ndof
                 call self%uniform(-widest, widest, q(i))
             end do
             if (allocated(d%typical_places)) q = d%typical_places*q
             do i = 1, size(given)
-                call self%uniform(-3.0_dp, 3.0_dp, given(i))
+                call self%uniform(-fastest, fastest, given(i))
             end do
             call system%complete_velocities(t, q, given, v, error)
             if (allocated(error)) return
             if (allocated(d%typical_places)) then
                 do i = 1, system%ndof
-                    call self%uniform(-3.0_dp, 3.0_dp, v(i))
+                    call self%uniform(-fastest, fastest, v(i))
                 end do
                 v = d%typical_places/d%typical_time*v
             end if
@@ -151,7 +154,11 @@ contains
                 self%left_out = self%left_out + 1
                 cycle
             end if
-            widest = 0.8_dp*widest
+            if (.not. allocated(outside) .and. is_inside(system, t, q, 0.0_dp*v)) then
+                fastest = 0.8_dp*fastest
+            else
+                widest = 0.8_dp*widest
+            end if
         end do
         if (allocated(outside)) then
             call fail(error, "no place was found that keeps the constraints")
