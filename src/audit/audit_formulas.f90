@@ -26,7 +26,8 @@ module lagrangia_audit_formulas
     integer, parameter :: is_quantity = 5, is_equation = 6, is_acceleration = 7
     integer, parameter :: is_constraint = 8, is_inequality = 9, is_reaction = 10
     integer, parameter :: is_force = 11, is_dissipation = 12
-    integer, parameter :: part = 1  !! of T only is known, for some points have no mass
+    integer, parameter :: part = 1
+    !! of T only is known, for some points have no mass, or only what turns is described
 
     real(dp), parameter :: much = 1e12_dp  !! m/s^2 or rad/s^2, beside which other terms are small
 
@@ -160,7 +161,7 @@ contains
 
         allocate (entries(0))
         if (allocated(d%kinetic_energy) .and. any(masses_of(d) > 0.0_dp)) then
-            if (all(d%points%mass > 0.0_dp)) then
+            if (size(d%points) > 0 .and. all(d%points%mass > 0.0_dp)) then
                 call add("T as printed", d%kinetic_energy, is_kinetic, 0)
             else
                 call add("T is at least that of the masses", d%kinetic_energy, is_kinetic, part)
