@@ -22,6 +22,7 @@ module lagrangia_sweep
     use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: join, quoted, to_text
     use lagrangia_variational, only: new_variational, variational_t
+    use lagrangia_velocity_of_energy, only: find_velocity
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
@@ -227,31 +228,20 @@ contains
     end subroutine plan_energy
 
     subroutine match_energy(self, system, q, v, error)
-        !! Choose the velocity that `energy_by` names: the larger root of \(E(q, v) = E_0\), which
-        !! is of second order in it. Does nothing without that key.
+        !! Choose the velocity that `energy_by` names, the larger one that gives the energy of the
+        !! scene's own start. Does nothing without that key.
         class(sweep_t), intent(in) :: self
         class(system_t), intent(in) :: system             !! of this trajectory
         real(dp), intent(in) :: q(:)                      !! its start
         real(dp), intent(inout) :: v(:)                   !! its velocities
         type(error_t), allocatable, intent(out) :: error  !! no velocity gives this energy
-        real(dp) :: a, b, c, change(-1:1), discriminant
-        integer :: i
+        logical :: found
 
         if (self%energy_by == 0) return
-        do i = -1, 1
-            v(self%energy_by) = i
-            change(i) = system%energy(self%scene%t0, q, v) - self%energy
-        end do
-        a = 0.5_dp*(change(1) + change(-1)) - change(0)
-        b = 0.5_dp*(change(1) - change(-1))
-        c = change(0)
-        discriminant = b**2 - 4.0_dp*a*c
-        if (.not. (discriminant >= 0.0_dp .and. a > 0.0_dp)) then
-            call fail(error, "no "//trim(self%scene%sweep%energy_by)//" gives this start the "// &
-                      "energy "//to_text(self%energy)//" J", status_numbers)
-            return
-        end if
-        v(self%energy_by) = (-b + sqrt(discriminant))/(2.0_dp*a)
+        call find_velocity(system, self%scene%t0, q, v, self%energy_by, self%energy, found)
+        if (.not. found) call fail(error, "no "//trim(self%scene%sweep%energy_by)// &
+                                   " gives this start the energy "//to_text(self%energy)//" J", &
+                                   status_numbers)
     end subroutine match_energy
 
     pure subroutine set_strobe(self, scene, after, error)
