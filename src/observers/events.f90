@@ -86,12 +86,13 @@ contains
         character(*), intent(in) :: text  !! as above, words between blanks
         class(system_t), intent(in) :: system  !! has the column
         type(error_t), allocatable, intent(out) :: error  !! not understood, or no such column
-        character(word_length) :: words(16)
+        character(word_length), allocatable :: words(:)
         character(name_length) :: name(1)
         character(:), allocatable :: level
         type(description_t) :: d
         integer :: i, count
 
+        allocate (words(len(text) + 1))  ! as many at most, and an empty one
         call split(text, words, count)
         if (count < 1) then
             call fail(error, "an event needs a column, as in "//example())
@@ -169,9 +170,9 @@ contains
     end function example
 
     pure subroutine split(text, words, count)
-        !! Words between blanks, and every `=` is one; what is too much lies behind the last.
+        !! Words between blanks, and every `=` is one.
         character(*), intent(in) :: text
-        character(word_length), intent(out) :: words(:)
+        character(word_length), intent(out) :: words(:)  !! as many as the text has characters
         integer, intent(out) :: count
         character(1) :: letter
         integer :: i
@@ -187,7 +188,6 @@ contains
                 cycle
             end if
             if (.not. within .or. letter == "=") count = count + 1
-            if (count > size(words)) count = size(words)
             words(count) = trim(words(count))//letter
             within = letter /= "="
         end do
