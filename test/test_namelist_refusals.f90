@@ -131,7 +131,8 @@ contains
 
     subroutine twins()
         !! Keys, groups, elements.
-        call refused("&a dt=1,"//lf//" DT=2 /", "2:2: &a: dt is given twice (first on line 1)")
+        call refused("&a dt=1,"//lf//" DT=2 /", "2:2: &a: DT is given twice (first on line 1 "// &
+                     "as dt, for capital letters do not count)")
         call refused("&a x=1 /"//lf//"&A x=2 /", "2:1: group &a is given twice (first on line 1)")
         call refused("&a q(1)=1 q(2)=2 q(1)=3 /", "1:18: &a: q is given twice (first on line 1)")
         call refused("&a q=1,2 q(2)=3 /", "1:10: &a: q is given twice (first on line 1)")

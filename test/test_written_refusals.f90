@@ -127,8 +127,8 @@ contains
         call refused("coordinates = 'r' parameters = 'sin'"//behind, "a.nml:2:44: &lagrangian: "// &
                      "parameters = 'sin': 'sin' is a function; take another name")
         call refused("coordinates = 'r' parameters = 'm', 'M'"//behind, "a.nml:2:49: "// &
-                     "&lagrangian: parameters = 'M': there is a parameter 'm' already, and "// &
-                     "keys know no capital letters; take another name")
+                     "&lagrangian: parameters = 'M': as a key it is the same as m, for "// &
+                     "capital letters do not count; take another name")
         call refused("coordinates = 'r' definitions = 'r = 2'"//behind, "a.nml:2:45: "// &
                      "&lagrangian: definitions = 'r = 2': the name 'r' is given twice; take "// &
                      "another one")

@@ -110,8 +110,7 @@ contains
         integer, intent(in) :: position       !! in the tree's text; 0: the file as a whole
         logical :: yes
 
-        yes = .false.
-        if (position > 0) yes = count(tree%starts <= position) > 1
+        yes = count(tree%starts <= position) > 1
     end function in_override
 
     pure function is_overridden(tree, group, key) result(yes)
@@ -270,9 +269,10 @@ contains
                              max(1, new%index) < max(1, old%index) + old%count) then
                         first = "on line "//to_text(line_of(tree, old%at))
                         if (in_override(tree, old%at)) first = "by another --set"
-                        call fail_at(tree, new%at, "&"// &
-                            escaped(trim(tree%groups(new%group)%name), 30)//": "// &
-                            escaped(trim(new%key))//" is given twice (first "//first//")", error)
+                        if (spelling(tree, old) /= spelling(tree, new)) first = first//" as "// &
+                            escaped(spelling(tree, old), 30)//", for capital letters do not count"
+                        call fail_at(tree, new%at, label(tree%groups(new%group)%name, &
+                            spelling(tree, new))//" is given twice (first "//first//")", error)
                         return
                     end if
                 end associate

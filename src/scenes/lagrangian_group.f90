@@ -178,14 +178,15 @@ contains
         type(error_t), allocatable, intent(out) :: error     !! a value that is missing
         character(name_length) :: names(size(formulas%parameters))
         type(error_t), allocatable :: found
-        integer :: i
+        integer :: i, twin
 
         do i = 1, size(names)
             names(i) = lower(formulas%parameters(i)%name)
-            if (all(names(:i - 1) /= names(i))) cycle
-            call refuse_value(tree, group, "parameters", "there is a parameter "// &
-                              quoted(trim(names(i)))//" already, and keys know no capital "// &
-                              "letters; take another name", error, i)
+            twin = findloc(names(:i - 1) == names(i), .true., 1)
+            if (twin == 0) cycle
+            call refuse_value(tree, group, "parameters", "as a key it is the same as "// &
+                              trim(formulas%parameters(twin)%name)//", for capital letters do "// &
+                              "not count; take another name", error, i)
             return
         end do
         do i = 1, size(names)
