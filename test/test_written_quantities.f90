@@ -127,6 +127,11 @@ contains
         call own(plane//"Q_x = '-x (x^2 + y^2)^2' Q_y = '-y (x^2 + y^2)^2' quantities = "//spin, &
                  round_values, system, d)
         call assertTrue(d%quantities(3)%conserved, "a steep central force, far away too")
+        call own(plane//"quantities = 'u = sqrt(-1 - x^2)', "//spin//", 'w = sqrt(x)'", &
+                 round_values, system, d)
+        call assertFalse(d%quantities(3)%conserved, "what is a number nowhere")
+        call assertTrue(d%quantities(4)%conserved, "beside others that are none")
+        call assertFalse(d%quantities(5)%conserved, "what is a number here and there")
     end subroutine conserved_is_found
 
     subroutine constraints_are_kept()
