@@ -32,6 +32,7 @@ contains
                                       a_blow_up_keeps_what_was_good))
         call suite%addTest(TestMethod("a_column_that_overflows_ends_the_run", &
                                       a_column_that_overflows_ends_the_run))
+        call suite%addTest(TestMethod("a_quantity_may_have_gaps", a_quantity_may_have_gaps))
         call suite%addTest(TestMethod("a_file_that_fails_is_a_failure", &
                                       a_file_that_fails_is_a_failure))
     end function scene_files_suite
@@ -141,6 +142,26 @@ contains
                         "the state is finite")
         call assertTrue(outcome%drifts(1)%value < huge(1.0_dp), "the worst of the good rows")
     end subroutine a_column_that_overflows_ends_the_run
+
+    subroutine a_quantity_may_have_gaps()
+        !! The motion does without its number, which is NaN there; but no drift from it holds.
+        character(*), parameter :: own = "&lagrangian coordinates='x' T='x_dot^2/2' V='x^2/2' "// &
+            "quantities='u = 1/x', 'h = (x_dot^2 + x^2) sqrt(x)/sqrt(x)' /"
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        call perform("&scene system='own' method='rk4' dt=1e-2 duration=1 q=0 v=1 "// &
+                     "columns='t','u','h','h_drift' expect_h_drift=1 /"//own, outcome, error)
+        call assertFalse(allocated(error), "it goes on")
+        call assertEqual(101, int(outcome%rows), message="rows")
+        call assertEqual(" (no finite number, and NaN: u in 1, h in 1, h_drift in 101 of 101 "// &
+                         "rows)", outcome%remark, message="which, and how often")
+        call assertEqual("NOT h_drift NaN > 1.0E+00", outcome%verdict(), message="from no number")
+        call perform("&scene system='own' method='rk4' dt=1e-2 duration=1 q=1 v=0 "// &
+                     "columns='t','u','h_drift' expect_h_drift=1e-6 /"//own, outcome, error)
+        call assertEqual("", outcome%remark, message="x > 0")
+        call assertEqual("holds", outcome%verdict(), message="x > 0")
+    end subroutine a_quantity_may_have_gaps
 
     subroutine a_file_that_fails_is_a_failure()
         !! Not a scene that holds, and there is no file to name.

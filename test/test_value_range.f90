@@ -1,5 +1,6 @@
 module test_value_range
     !! What a picture must know of a column.
+    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual
     use lagrangia_kinds, only: dp
     use lagrangia_value_range, only: range_of, value_range_t
@@ -16,6 +17,7 @@ contains
         suite = TestSuite("value_range")
         call suite%addTest(TestMethod("values_are_seen", values_are_seen))
         call suite%addTest(TestMethod("nothing_was_seen", nothing_was_seen))
+        call suite%addTest(TestMethod("gaps_are_no_values", gaps_are_no_values))
     end function value_range_suite
 
     subroutine values_are_seen()
@@ -44,4 +46,19 @@ contains
         call assertEqual(0.0_dp, range%largest())
         call assertEqual(0, int(range%count))
     end subroutine nothing_was_seen
+
+    subroutine gaps_are_no_values()
+        !! Neither ends nor turns; they are counted apart.
+        type(value_range_t) :: range
+        real(dp) :: nan, infinite
+
+        nan = ieee_value(nan, ieee_quiet_nan)
+        infinite = ieee_value(infinite, ieee_positive_inf)
+        range = range_of([nan, 1.0_dp, infinite, 2.0_dp, nan, 3.0_dp, -infinite])
+        call assertEqual(4, int(range%gaps), message="gaps")
+        call assertEqual(3, int(range%count), message="values")
+        call assertEqual(0, int(range%turns), message="turns")
+        call assertEqual(1.0_dp, range%low, message="lowest")
+        call assertEqual(3.0_dp, range%largest(), message="largest")
+    end subroutine gaps_are_no_values
 end module test_value_range

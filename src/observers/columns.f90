@@ -11,7 +11,7 @@ module lagrangia_columns
     private
     public :: columns_t, new_columns, column_names
     public :: refuse_work, why_energy_changes
-    public :: is_error
+    public :: is_error, is_quantity
 
     integer, parameter :: is_time = 1, is_coordinate = 2, is_velocity = 3, is_acceleration = 4
     integer, parameter :: is_energy = 5, is_quantity = 6, is_position = 7

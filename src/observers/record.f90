@@ -1,8 +1,8 @@
 module lagrangia_record
     !! The observers that evaluate columns, write them down and remember their range: one row a
     !! sample, or one row an event with its number at the end.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_columns, only: columns_t
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_columns, only: columns_t, is_quantity
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -73,17 +73,19 @@ contains
     end subroutine abandon
 
     pure function worst(self, i) result(value)
-        !! The largest magnitude of a column so far.
+        !! The largest magnitude of a column so far; NaN where it has a gap, of which nothing can
+        !! be said.
         class(record_t), intent(in) :: self
         integer, intent(in) :: i  !! number of the column
         real(dp) :: value
 
         value = self%ranges(i)%largest()
+        if (self%ranges(i)%gaps > 0) value = ieee_value(value, ieee_quiet_nan)
     end function worst
 
     subroutine observe(self, system, t, q, v, error)
-        !! See `observer_t`. A number that is none ends the run: it would be neither a good row nor,
-        !! since `min` and `max` pass over NaN, a bad verdict.
+        !! See `observer_t`. A number that is none ends the run, for the motion is none any more;
+        !! but not one of a quantity, which the motion does without: that is NaN.
         class(sample_record_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
@@ -103,7 +105,11 @@ contains
             call self%work%begin(system, t, q, v)
         end if
         call self%columns%evaluate(system, t, q, v, deviation, self%row, self%work%done())
-        odd = findloc(ieee_is_finite(self%row), .false., 1)
+        where (self%columns%items%kind == is_quantity .and. .not. ieee_is_finite(self%row))
+            self%row = ieee_value(self%row, ieee_quiet_nan)
+        end where
+        odd = findloc(ieee_is_finite(self%row) .or. self%columns%items%kind == is_quantity, &
+                      .false., 1)
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)

@@ -1,6 +1,7 @@
 module lagrangia_measures
     !! What a run is judged by: the worst of its columns, its period, its small oscillations.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_counted, only: counted
     use lagrangia_errors, only: error_t
     use lagrangia_frequency_formula, only: find_formula
     use lagrangia_hyperdual, only: hyperdual_t
@@ -14,6 +15,7 @@ module lagrangia_measures
     use lagrangia_scene, only: scene_t
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: take_measures, take_modes
@@ -21,7 +23,8 @@ module lagrangia_measures
 contains
 
     subroutine take_measures(scene, system, record, period, reference, outcome)
-        !! The worst of every drift and error, and the period beside what it should be.
+        !! The worst of every drift and error, and the period beside what it should be; and which
+        !! quantities have gaps.
         type(scene_t), intent(in) :: scene  !! says what is expected
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(sample_record_t), intent(in) :: record  !! of the samples, when the run has ended
@@ -36,6 +39,7 @@ contains
         outcome%energy_evaluations = record%columns%energy_evaluations
         outcome%rows = record%rows
         if (record%rows > 0) then
+            outcome%remark = outcome%remark//gaps_text(record)
             do i = 1, size(record%columns%items)
                 m = measure(record%columns%items(i)%name, record%worst(i))
                 if (m%name == "energy_drift") outcome%energy_terms = &
@@ -75,6 +79,23 @@ contains
             m%most = scene%expectations(k)%limit
         end function measure
     end subroutine take_measures
+
+    pure function gaps_text(record) result(text)
+        !! ` (no finite number, and NaN: E2 in 1, u in 247 of 501 rows)`; empty where every quantity
+        !! has its numbers.
+        type(sample_record_t), intent(in) :: record  !! with rows
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(record%ranges)
+            if (record%ranges(i)%gaps == 0) cycle
+            if (text /= "") text = text//", "
+            text = text//trim(record%columns%items(i)%name)//" in "//to_text(record%ranges(i)%gaps)
+        end do
+        if (text /= "") text = " (no finite number, and NaN: "//text//" of "// &
+                               counted(record%rows, "row")//")"
+    end function gaps_text
 
     function energy_terms(system, outcome) result(bound)
         !! \(\sum_j|p_j\dot q_j| + |L|\) at the end: the energy is a difference of such terms, and

@@ -147,6 +147,7 @@ contains
         character(*), intent(in) :: names(:), units(:)  !! of its columns
         type(value_range_t), intent(in) :: ranges(:)    !! of at least those columns
         character(*), intent(in), optional :: name      !! in a legend; default: the file's name
+        integer :: i
 
         series%file = file
         series%reading = reading
@@ -157,6 +158,9 @@ contains
         series%units(:) = units
         allocate (series%ranges(size(names)))
         series%ranges(:) = ranges(:size(names))
+        do i = 1, size(names)  ! an axis without any number has room about zero
+            if (ranges(i)%count == 0 .and. ranges(i)%gaps > 0) call series%ranges(i)%see(0.0_dp)
+        end do
     end subroutine new_series
 
     function gnuplot_script(file, series, title, remark, panels, style) result(text)

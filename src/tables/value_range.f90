@@ -1,6 +1,7 @@
 module lagrangia_value_range
     !! What a picture must know of a column before it is drawn: where its values lie, how near to
-    !! zero, and how often they turn round.
+    !! zero, how often they turn round; and how often there is none.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
@@ -12,6 +13,7 @@ module lagrangia_value_range
         real(dp) :: low = huge(1.0_dp), high = -huge(1.0_dp)
         real(dp) :: least = huge(1.0_dp)  !! smallest magnitude above zero
         integer(i8) :: count = 0          !! all values
+        integer(i8) :: gaps = 0           !! what was no finite number, and is no value
         integer(i8) :: zeros = 0          !! those that are zero
         integer(i8) :: turns = 0          !! from rising to falling or back
         real(dp), private :: last = 0.0_dp, rise = 0.0_dp
@@ -25,9 +27,13 @@ contains
     elemental subroutine see(self, value)
         !! One more value, behind those before.
         class(value_range_t), intent(inout) :: self
-        real(dp), intent(in) :: value  !! finite
+        real(dp), intent(in) :: value  !! NaN or infinite: a gap
         real(dp) :: rise
 
+        if (.not. ieee_is_finite(value)) then
+            self%gaps = self%gaps + 1
+            return
+        end if
         self%low = min(self%low, value)
         self%high = max(self%high, value)
         if (is_nonzero(value)) then
