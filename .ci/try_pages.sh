@@ -45,7 +45,7 @@ costless() { # without what a run costs, which folder it wrote to, and digits th
     grep -v -e "^lagrangia: .* takes about " -e "^lagrangia: this build is not optimised" |
         sed -E -e "s,$work/,,g" -e 's/^([#!] lagrangia) [0-9]+\.[0-9]+\.[0-9]+:/\1:/' -e 's/[0-9]+ steps?, [0-9]+ evaluations (.*, )[0-9.]+ s$/~ steps, ~ evaluations \1~ s/' \
             -e 's/"(seconds|threads|steps|evaluations)": [0-9.E+-]+/"\1": ~/g' -e 's/(  [0-9]+ +[0-9]+ .*[^ ]) +[0-9.]+$/\1 ~/' \
-            -e 's/ in [0-9.E+-]+ s by [0-9]+ process(es)?/ in ~/' -e 's/^(  [^ ]+ +[0-9]+ +[0-9]+) +[0-9.e-]+$/\1 ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' \
+            -e 's/ in [0-9.Ee+-]+ s by [0-9]+ process(es)?/ in ~/' -e 's/^(  [^ ]+ +[0-9]+ +[0-9]+) +[0-9.e-]+$/\1 ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' \
             -e 's/([0-9]\.[0-9]{9})[0-9]+/\1/g' | plain
 }
 
