@@ -35,6 +35,7 @@ contains
         suite = TestSuite("written_quantities")
         call suite%addTest(TestMethod("values, units and words", values_and_words))
         call suite%addTest(TestMethod("what is conserved is found", conserved_is_found))
+        call suite%addTest(TestMethod("what acts in one place is found", places_are_found))
         call suite%addTest(TestMethod("constraints are kept", constraints_are_kept))
         call suite%addTest(TestMethod("a drift has a size", drift_has_a_size))
         call suite%addTest(TestMethod("magnitudes of terms", magnitudes))
@@ -133,6 +134,32 @@ contains
         call assertTrue(d%quantities(4)%conserved, "beside others that are none")
         call assertFalse(d%quantities(5)%conserved, "what is a number here and there")
     end subroutine conserved_is_found
+
+    subroutine places_are_found()
+        !! A narrow hill, a kick of a moment, a step on a circle, none of which acts anywhere else;
+        !! what they conserve they conserve.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+
+        call own("coordinates = 'x', 'y' parameters = 'm', 'k', 'c' definitions = "// &
+                 "'U = k exp(-((x - 30)^2 + (y - 40 - c t)^2)/1e-4)' "// &
+                 "T = 'm/2 (x_dot^2 + y_dot^2)' V = 'U' quantities = "//spin// &
+                 ", 'h = m/2 (x_dot^2 + y_dot^2) + U', 's = h - c m y_dot'", &
+                 "m = 2 k = 3 c = 5", system, d)
+        if (anyExceptions()) return
+        call assertFalse(d%quantities(3)%conserved, "not about the origin")
+        call assertFalse(d%quantities(4)%conserved, "the hill moves")
+        call assertTrue(d%quantities(5)%conserved, "seen from the hill it does not")
+        call own(plane//"Q_x = '0.1 exp(-((t - 5)/0.05)^2)' quantities = 'P = m x_dot', "// &
+                 "'S = m y_dot'", "m = 2 k = 0 c = 0", system, d)
+        call assertFalse(d%quantities(3)%conserved, "a kick")
+        call assertTrue(d%quantities(4)%conserved, "across the kick")
+        call own("coordinates = 'x', 'y' parameters = 'm', 'k', 'c' "// &
+                 "T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k tanh((sqrt(x^2 + y^2) - c)/0.01)' "// &
+                 "quantities = "//spin//", 'P = m x_dot'", "m = 2 k = 3 c = 50", system, d)
+        call assertTrue(d%quantities(3)%conserved, "round about the origin")
+        call assertFalse(d%quantities(4)%conserved, "a step on a circle")
+    end subroutine places_are_found
 
     subroutine constraints_are_kept()
         !! On a circle \(x\dot x + y\dot y = 0\) holds, and the energy is conserved where the

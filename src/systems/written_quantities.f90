@@ -14,6 +14,7 @@ module lagrangia_written_quantities
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, last_state, &
                                           near_states, trial_state
+    use lagrangia_local_states, only: find_local_states
     use lagrangia_number_class, only: all_finite, is_zero
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
@@ -55,29 +56,48 @@ contains
         end do
     end subroutine read_quantities
 
-    pure subroutine find_conserved(system, program, conserved)
+    pure subroutine find_conserved(system, program, lagrangian, forces, conserved)
         !! A quantity is conserved if its rate is rounding at those states of `trial_state` at which
         !! it is a number, with velocities that keep the constraints: beside the terms that add up
         !! to it, or, where the terms of a force cancel, beside what rounding of the state makes of
-        !! it. Constraints hold near the origin at most.
+        !! it. Constraints hold near the origin at most. Without them what acts at no such state is
+        !! looked for in the formulas.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
+        type(expression_t), intent(in) :: lagrangian       !! L, of t, q, q_dot, parameters
+        type(expression_t), intent(in) :: forces(:)        !! beside L, of each coordinate
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
         real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
         real(dp), dimension(system%ndof) :: q, v, a
         real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
         real(dp), dimension(program%outputs) :: rate, terms, noise
         logical :: known(program%outputs)
+        type(expression_t) :: formulas(1 + size(forces))
+        real(dp), allocatable :: local(:, :)
         integer :: used(program%outputs)
         real(dp) :: t
-        integer :: k
+        integer :: k, last, n
 
         allocate (conserved(program%outputs), source=.true.)
         if (size(conserved) == 0) return
         used = 0
-        do k = 1, merge(last_state, near_states, system%constraints == 0)
+        n = system%ndof
+        last = near_states
+        call trial_state(1, t, q, v)
+        allocate (local(0, 0))
+        if (system%constraints == 0) then
+            last = last_state
+            formulas(1) = lagrangian
+            formulas(2:) = forces
+            call find_local_states(formulas, [t, q, v, system%p], 1 + n, local)
+        end if
+        do k = 1, last + size(local, 2)
             if (is_spare(k, minval(used))) cycle
-            call trial_state(k, t, q, v)
+            call trial_state(min(k, last), t, q, v)
+            if (k > last) then
+                t = local(1, k - last)
+                q = local(2:1 + n, k - last)
+            end if
             call keep_constraints(system, t, q, v)
             call system%accelerations(t, q, v, a)
             call rates(program, t, q, v, a, rate, terms)

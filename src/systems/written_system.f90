@@ -199,7 +199,8 @@ contains
         call find_structure(self)
         if (self%workless) self%workless = is_workless(self, self%expressions%forces, &
                                                        self%expressions%symbols)
-        call find_conserved(self, self%programs(of_quantity), self%is_conserved)
+        call find_conserved(self, self%programs(of_quantity), self%expressions%lagrangian, &
+                            self%expressions%forces, self%is_conserved)
     end subroutine find_all_structure
 
     pure function lagrangian(self, t, q, v) result(l)
