@@ -12,6 +12,7 @@ module suites
     use test_bench_files, only: bench_files_suite
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
+    use test_brief_force, only: brief_force_suite
     use test_canonical, only: canonical_suite
     use test_canonical_form, only: canonical_form_suite
     use test_canonical_maps, only: canonical_maps_suite
@@ -241,6 +242,7 @@ contains
         call suite%addTest(bench_files_suite())
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
+        call suite%addTest(brief_force_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(canonical_form_suite())
         call suite%addTest(canonical_maps_suite())

@@ -6,6 +6,7 @@ module lagrangia_audit_structure
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_lapack, only: smallest_pivot
     use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
@@ -25,8 +26,8 @@ contains
 
     subroutine audit_flags(audit, system, t, q, v, other_t, other_v, generic)
         !! `velocity_forces`, `time_dependent` and `nonconservative` say what is true: one that is
-        !! false always, one that is true for parameters off the edges of their domains. Equal
-        !! means equal bits.
+        !! false always, one that is true for parameters off the edges of their domains, unless
+        !! formulas have told it. Equal means equal bits.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
@@ -37,8 +38,13 @@ contains
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         type(hyperdual_t) :: new_rows(system%constraints, system%ndof), new_b(system%constraints)
         real(dp) :: by_velocity, by_time
-        logical :: bound, moving
+        logical :: bound, moving, told
 
+        told = .false.
+        select type (system)
+        class is (lagrangian_system_t)
+            told = system%told_by_formulas
+        end select
         by_velocity = change(system, t, q, v, t, other_v)
         by_time = change(system, t, q, v, other_t, v)
         ! on rolling systems other velocities would also have to roll
@@ -47,7 +53,8 @@ contains
             call verdict(by_velocity <= 0.0_dp, "velocity_forces", &
                          "velocity_forces is false, yet the accelerations depend on velocities")
         else if (generic .and. .not. bound) then
-            call verdict(by_velocity > 0.0_dp .or. counts_when_slow(system, t, q, v), &
+            call verdict(by_velocity > 0.0_dp .or. counts_when_slow(system, t, q, v) .or. &
+                         told, &
                          "velocity_forces", &
                          "velocity_forces is true, yet no acceleration depends on a velocity")
         end if
@@ -64,7 +71,7 @@ contains
             if (any(is_nonzero(now%re))) call verdict(.false., "nonconservative", &
                 "nonconservative is false, yet there are generalised forces")
         else
-            call verdict(acts_somewhere(system, t, q, v), "nonconservative", &
+            call verdict(told .or. acts_somewhere(system, t, q, v), "nonconservative", &
                          "nonconservative is true, yet no generalised force acts")
         end if
         if (.not. system%time_dependent) then
@@ -74,7 +81,7 @@ contains
                          "time_dependent is false, yet L depends on the time")
         else if (generic) then
             call verdict(is_nonzero(later%l - terms%l) .or. any(is_nonzero(then%re - now%re)) &
-                         .or. by_time > 0.0_dp .or. moving, &
+                         .or. by_time > 0.0_dp .or. moving .or. told, &
                          "time_dependent", "time_dependent is true, yet L has no time in it")
         end if
         if (.not. system%constraints_work .and. any(is_nonzero(b%re))) call verdict(.false., &

@@ -8,10 +8,11 @@ module lagrangia_helmholtz
     !!    \Bigl(\frac{\partial}{\partial t} + \dot q\cdot\frac{\partial}{\partial q}\Bigr)
     !!    \frac{\partial Q_i}{\partial\dot q_j} $$
     !!
-    !! by exact derivatives, at states at random: what fails there fails, what holds at all of them
-    !! holds but for chance. The first one makes Q linear in the velocities: second derivatives
-    !! would be symmetric in two of three indices and antisymmetric in two. A force that is steep
-    !! somewhere else, as dry friction is, shows by what it becomes as its velocity turns round.
+    !! by exact derivatives, at states at random where a force acts: what fails there fails, what
+    !! holds at all of them holds but for chance. The first one makes Q linear in the velocities:
+    !! second derivatives would be symmetric in two of three indices and antisymmetric in two. A
+    !! force that is steep somewhere else, as dry friction is, shows by what it becomes as its
+    !! velocity turns round.
     !!
     !! Source: Santilli, *Foundations of Theoretical Mechanics I* (1978), sec. 2.2; H. v. Helmholtz,
     !! J. reine angew. Math. 100 (1887) 137.
@@ -20,6 +21,7 @@ module lagrangia_helmholtz
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -36,6 +38,7 @@ module lagrangia_helmholtz
         real(dp), allocatable :: q(:, :), v(:, :)    !! by coordinates and velocities
         real(dp), allocatable :: rate(:, :)          !! of `v`, at constant velocities
         real(dp) :: scale = 0.0_dp                   !! the largest first one
+        logical :: act = .false.                     !! a force is not 0 there
     end type slopes_t
 
 contains
@@ -60,7 +63,7 @@ contains
             call random%state(system, t, q, v, error)
             if (allocated(error)) return
             call differentiate(system, t, q, v, slopes)
-            if (.not. ieee_is_finite(slopes%scale)) cycle
+            if (.not. (slopes%act .and. ieee_is_finite(slopes%scale))) cycle
             has_one = .true.
             call compare(system, slopes, remark)
             has_one = remark == ""
@@ -99,6 +102,7 @@ contains
             qq(j)%d1 = 1.0_dp
             call system%generalised_forces(tt, qq, vv, f)
             slopes%q(:, j) = f%d1
+            slopes%act = slopes%act .or. any(is_nonzero(f%re))
             call at_state()
             tt%d2 = 1.0_dp
             qq%d2 = v

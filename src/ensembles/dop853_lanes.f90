@@ -6,6 +6,7 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_brief_force, only: find_briefest_force
     use lagrangia_dop853_control, only: first_step, least_error, next_steps
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
@@ -28,6 +29,7 @@ module lagrangia_dop853_lanes
         real(dp) :: tolerance = 1e-10_dp
         real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
+        real(dp) :: briefest(lanes) = 0.0_dp         !! no step is longer, s
         integer(i8) :: steps(lanes) = 0              !! of each trajectory
         real(dp) :: last_error(lanes) = least_error  !! of accepted steps, see `next_steps`
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
@@ -84,7 +86,9 @@ contains
         integer, intent(in) :: lane
         type(scene_t), intent(in) :: scene
         real(dp) :: y(2*system%ndof), f(2*system%ndof)
+        integer(i8) :: evaluations
 
+        evaluations = 0
         y(:system%ndof) = scene%q
         y(system%ndof + 1:) = scene%v
         self%tolerance = scene%tolerance
@@ -92,6 +96,8 @@ contains
         call slope(system, system%ndof, scene%t0, y, f)
         call first_step(system, system%ndof, self%tolerance, scene%t0, self%t_end(lane), y, f, &
                         self%h(lane))
+        call find_briefest_force(system, scene%t0, self%t_end(lane), scene%q, scene%v, &
+                                 self%briefest(lane), evaluations)
         self%y(lane, :) = y
         self%k(lane, :, 1) = f
         self%t(lane) = scene%t0
@@ -116,8 +122,9 @@ contains
             self%k(:, i, 1) = merge(self%k(:, i, 13), self%k(:, i, 1), self%moved)
         end do
         self%busy = self%busy .and. self%t < self%t_end
-        last = self%t + 1.01_dp*self%h >= self%t_end
-        h = merge(self%t_end - self%t, self%h, last)
+        h = min(self%h, self%briefest)
+        last = self%t + 1.01_dp*h >= self%t_end
+        h = merge(self%t_end - self%t, h, last)
         h = (self%t + h) - self%t  ! what the clock will say
         self%stuck = self%busy .and. .not. self%t + 0.1_dp*h > self%t
         self%busy = self%busy .and. .not. self%stuck

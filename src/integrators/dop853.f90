@@ -5,6 +5,7 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_brief_force, only: find_briefest_force
     use lagrangia_dop853_control, only: first_step, least_error, next_step
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
@@ -101,6 +102,7 @@ contains
         call self%refuse_system(system, refused)
         if (refused) return
         call self%stand(t0, t_end)
+        call find_briefest_force(system, t0, self%t_end, q, v, self%briefest, self%evaluations)
         self%last_error = least_error
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
@@ -127,7 +129,7 @@ contains
         self%t_old = self%t_new
         retry = .false.
         do
-            h = min(self%h, self%longest)
+            h = min(self%h, self%longest, self%briefest)
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
             h = (self%t_old + h) - self%t_old  ! what the clock will say

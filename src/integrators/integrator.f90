@@ -52,6 +52,7 @@ module lagrangia_integrator
         real(dp) :: least_tolerance = 1e-15_dp  !! below, all is rounding
         real(dp) :: noise_margin = 16.0_dp  !! the least tolerance of use is rounding over this
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
+        real(dp) :: briefest = huge(1.0_dp) !! nor longer than a force acts, s: `start` says
         integer(i8) :: most_steps = huge(1_i8)  !! after so many a run fails
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s

@@ -28,6 +28,7 @@ module lagrangia_lagrangian_system
     type, abstract, extends(bound_system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
         logical, allocatable :: cyclic_coordinates(:)  !! all that are cyclic with them, (ndof)
+        logical :: told_by_formulas = .false.  !! what acts may act far away, for a moment
     contains
         procedure(outline_i), deferred :: outline
         procedure :: value

@@ -3,24 +3,23 @@ module lagrangia_written_quantities
     !! names, `'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'`. Which of them the motion
     !! conserves is found out.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_canonical_form, only: simplified
     use lagrangia_description, only: name_length, quantity_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, operator(*), operator(+), symbol, whole
+    use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_formula_program, only: formula_program_t, new_formula_program
+    use lagrangia_formula_program, only: formula_program_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, last_state, &
                                           near_states, trial_state
     use lagrangia_local_states, only: find_local_states
-    use lagrangia_number_class, only: all_finite, is_zero
+    use lagrangia_number_class, only: all_finite
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: find_conserved, is_workless, read_quantities
+    public :: find_conserved, read_quantities
 
     integer, parameter :: longest = name_length - len("_drift")
 
@@ -110,36 +109,6 @@ contains
         end do
         conserved = conserved .and. used > 0
     end subroutine find_conserved
-
-    pure function is_workless(system, forces, symbols) result(yes)
-        !! Do the forces beside L do no work, \(\sum_j Q_j\,\dot q_j = 0\)? As a formula, in which
-        !! what cancels is left out: a friction is none however small it is beside other forces.
-        class(lagrangian_system_t), intent(in) :: system  !! with its parameters
-        type(expression_t), intent(in) :: forces(:)       !! of each coordinate
-        type(symbols_t), intent(in) :: symbols            !! t, q, q_dot, parameters
-        logical :: yes
-        type(expression_t) :: power(1)
-        type(formula_program_t) :: program
-        real(dp) :: q(system%ndof), v(system%ndof), t, values(1)
-        integer :: i, k, used
-
-        power(1) = whole(0)
-        do i = 1, system%ndof
-            power(1) = power(1) + forces(i)*symbol(1 + system%ndof + i)
-        end do
-        power(1) = simplified(power(1), symbols)
-        call new_formula_program(program, power, size(symbols%names))
-        yes = .true.
-        used = 0
-        do k = 1, last_state
-            if (is_spare(k, used)) cycle
-            call trial_state(k, t, q, v)
-            call program%evaluate([t, q, v, system%p], values)
-            if (.not. ieee_is_finite(values(1))) cycle
-            used = used + 1
-            yes = yes .and. is_zero(values(1))
-        end do
-    end function is_workless
 
     pure subroutine find_noise(system, program, t, q, v, rate, noise)
         !! The changes of the rates where the state is another one by a few roundings.

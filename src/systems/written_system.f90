@@ -13,13 +13,14 @@ module lagrangia_written_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrangian_system, only: find_structure, lagrangian_system_t
     use lagrangia_magnitude, only: magnitude
+    use lagrangia_written_dependence, only: find_dependence
     use lagrangia_written_description, only: collect_constants, state_formulas, state_places
     use lagrangia_written_equations, only: write_equations
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_motion, only: derive_motion, invert_momenta, leave_out_what_cancels, &
                                         solve_motion, written_motion_t
-    use lagrangia_written_quantities, only: find_conserved, is_workless
+    use lagrangia_written_quantities, only: find_conserved
     implicit none (type, external)
     private
     public :: is_positive, new_written_system, of_momentum, written_system_t
@@ -197,8 +198,7 @@ contains
         class(written_system_t), intent(inout) :: self
 
         call find_structure(self)
-        if (self%workless) self%workless = is_workless(self, self%expressions%forces, &
-                                                       self%expressions%symbols)
+        call find_dependence(self, self%expressions, self%motion)
         call find_conserved(self, self%programs(of_quantity), self%expressions%lagrangian, &
                             self%expressions%forces, self%is_conserved)
     end subroutine find_all_structure

@@ -1,0 +1,104 @@
+module lagrangia_written_dependence
+    !! On what the formulas of an own system depend as formulas. A kick that lasts a moment and a
+    !! wall far away are 0 at every state that is tried, so that `find_structure` cannot see them.
+    use lagrangia_canonical_form, only: simplified
+    use lagrangia_derivative, only: derivative
+    use lagrangia_expression, only: expression_t, operator(*), operator(+), symbol, whole
+    use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_number_class, only: is_zero
+    use lagrangia_substitution, only: substituted
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_written_expressions, only: written_expressions_t
+    use lagrangia_written_motion, only: written_motion_t
+    implicit none (type, external)
+    private
+    public :: find_dependence
+
+contains
+
+    pure subroutine find_dependence(system, expressions, motion)
+        !! What no trial state has shown and the formulas say: forces beside L, and that they work;
+        !! the time in L and in them; velocities in the equations of motion, which rounding hides
+        !! far below a speed of light; coordinates that are not cyclic.
+        class(lagrangian_system_t), intent(inout) :: system  !! with its parameters, and with the
+        !! structure that `find_structure` gave it; it is corrected
+        type(written_expressions_t), intent(in) :: expressions  !! L, Q, and their symbols
+        type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
+        type(expression_t) :: power, q
+        integer :: i, j, n
+
+        n = system%ndof
+        system%told_by_formulas = .true.
+        power = whole(0)
+        do i = 1, n
+            q = short(expressions%forces(i), system%p, expressions%symbols)
+            if (q%is_zero()) cycle
+            power = power + q*symbol(1 + n + i)
+            system%nonconservative = .true.
+            system%time_dependent = system%time_dependent .or. q%depends_on(1)
+            system%cyclic_coordinates(i) = .false.
+        end do
+        do i = 1, n
+            if (system%velocity_forces) exit
+            system%velocity_forces = has_velocities(motion%right(i))
+            do j = 1, i
+                if (.not. system%velocity_forces) system%velocity_forces = &
+                    has_velocities(motion%mass(i, j))
+            end do
+        end do
+        if (system%workless) then
+            power = short(power, system%p, expressions%symbols)
+            system%workless = power%is_zero()
+        end if
+        if (system%timeless_lagrangian .and. changes_with(1)) then
+            system%timeless_lagrangian = .false.
+            system%time_dependent = .true.
+        end if
+        do i = 1, n
+            if (.not. system%cyclic_coordinates(i)) cycle
+            if (changes_with(1 + i)) system%cyclic_coordinates(i) = .false.
+        end do
+        system%cyclic = findloc(system%cyclic_coordinates, .true., 1)
+    contains
+        pure function has_velocities(expression) result(yes)
+            type(expression_t), intent(in) :: expression
+            logical :: yes
+            type(expression_t) :: e
+            integer :: k
+
+            yes = any([(expression%depends_on(k), k=2 + n, 1 + 2*n)])
+            if (.not. yes) return
+            e = short(expression, system%p, expressions%symbols)
+            yes = any([(e%depends_on(k), k=2 + n, 1 + 2*n)])
+        end function has_velocities
+
+        pure function changes_with(which) result(yes)
+            integer, intent(in) :: which
+            logical :: yes
+            type(expression_t) :: slope
+
+            yes = expressions%lagrangian%depends_on(which)
+            if (.not. yes) return
+            slope = short(derivative(expressions%lagrangian, which), system%p, expressions%symbols)
+            yes = .not. slope%is_zero()
+        end function changes_with
+    end subroutine find_dependence
+
+    pure function short(expression, p, symbols) result(e)
+        !! The canonical form, with 0 for the parameters that are 0.
+        type(expression_t), intent(in) :: expression
+        real(dp), intent(in) :: p(:)
+        type(symbols_t), intent(in) :: symbols
+        type(expression_t) :: e
+        integer, allocatable :: places(:)
+        integer :: first, i
+
+        e = expression
+        if (e%is_zero()) return
+        first = size(symbols%names) - size(p)
+        places = pack([(first + i, i=1, size(p))], is_zero(p))
+        if (size(places) > 0) e = substituted(e, places, [(whole(0), i=1, size(places))])
+        e = simplified(e, symbols)
+    end function short
+end module lagrangia_written_dependence
