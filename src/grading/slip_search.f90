@@ -25,6 +25,7 @@ module lagrangia_slip_search
 
     real(dp), parameter :: zero = 1e-9_dp   !! of the sizes of what is added up
     integer, parameter :: enough = 4        !! samples at which all is finite
+    integer, parameter :: widest = 13       !! kinds of changes, from a sign to two terms
 
 contains
 
@@ -86,7 +87,7 @@ contains
             if (samples%role(i) /= role_acceleration .and. samples%role(i) < role_known) cycle
             if (expression%depends_on(i)) could_be_trivial = .false.
         end do
-        do i = 1, 13
+        do i = 1, widest
             explanation%width = i
             select case (i)
             case (1); call try_signs(remark)
@@ -103,10 +104,10 @@ contains
                                               explanation%lacks, explanation%is_vague)
             case (11); call try_inner_factors(remark)
             case (12); call try_throughout(remark)
-            case (13); call two_factors(expression, samples, values, library, &
-                                        could_be_trivial, remark)
+            case default; call two_factors(expression, samples, values, library, &
+                                           could_be_trivial, remark)
             end select
-            if (remark /= "" .or. (i == 10 .and. explanation%is_vague)) exit
+            if (remark /= "" .or. explanation%is_vague) exit
         end do
         explanation%text = remark
     contains
