@@ -4,6 +4,7 @@ module test_quadratic_eigen
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
+    use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     implicit none (type, external)
     private
     public :: quadratic_eigen_suite
@@ -24,7 +25,34 @@ contains
         call suite%addTest(TestMethod("nothing_holds_it", nothing_holds_it))
         call suite%addTest(TestMethod("drag_and_magnetic_field", drag_and_magnetic_field))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
+        call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
+
+    subroutine stiffness_without_symmetry()
+        !! \(K a = \omega^2 M a\) with the slow mode first; not where a force turns it around, nor
+        !! without inertia.
+        real(dp), parameter :: k(2, 2) = reshape([9.1_dp, 0.0_dp, 2.0_dp, 2.1_dp], [2, 2])
+        real(dp), parameter :: turning(2, 2) = reshape([0.0_dp, 1.0_dp, -1.0_dp, 0.0_dp], [2, 2])
+        real(dp), parameter :: none(2, 2) = 0.0_dp
+        real(dp) :: omega2(2), shapes(2, 2)
+        logical :: known
+        integer :: j
+
+        call unsymmetric_modes(k, m2, omega2, shapes, known)
+        call assertTrue(known, message="known")
+        call assertEqual(3.0_dp, omega2(1), rounding, message="the slow one")
+        call assertEqual(7.0_dp, omega2(2), rounding, message="the fast one")
+        do j = 1, 2
+            call assertEqual(0.0_dp, maxval(abs(matmul(k - omega2(j)*m2, shapes(:, j)))), &
+                             10*rounding, message="K a = omega^2 M a")
+            call assertTrue(maxval(abs(shapes(:, j))) > 0.5_dp, message="a shape that is not 0")
+        end do
+        call unsymmetric_modes(turning, m2, omega2, shapes, known)
+        call assertFalse(known, message="no real omega^2")
+        call assertEqual(0.0_dp, maxval(abs(omega2)), 0.0_dp, message="is 0 then")
+        call unsymmetric_modes(k, none, omega2, shapes, known)
+        call assertFalse(known, message="no inertia")
+    end subroutine stiffness_without_symmetry
 
     subroutine solve(m, d, k, lambda)
         real(dp), intent(in) :: m(:, :), d(:, :), k(:, :)

@@ -9,6 +9,7 @@ module lagrangia_set_lines
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, state_setting
+    use lagrangia_judged_sheet, only: reason_text
     use lagrangia_judgement, only: is_consequence, is_unreadable, is_wrong
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: name_length
@@ -113,9 +114,10 @@ contains
             if (.not. allocated(result%of(k)%because)) cycle
             result%of(k)%because = pack(result%of(k)%because, &
                                         result%of(result%of(k)%because)%verdict == is_wrong)
-            if (size(result%of(k)%because) == 1) result%of(k)%remark = "from line "// &
-                to_text(homework%statements(result%of(k)%because(1))%line)//", which is wrong"
-            if (size(result%of(k)%because) > 0) cycle
+            if (size(result%of(k)%because) > 0) then
+                result%of(k)%remark = reason_text(homework, result%of(k)%because)
+                cycle
+            end if
             result%of(k)%verdict = is_wrong
             result%of(k)%remark = "with what the lines 'set:' before it fix"
             deallocate (result%of(k)%because)
@@ -272,7 +274,7 @@ contains
         type(error_t), allocatable, intent(out) :: error    !! it is no number
         character(26) :: digits
         real(dp) :: number
-        integer :: behind
+        integer :: behind, i
 
         if (value == "" .or. is_one_number(value)) return
         behind = verify(value, "0123456789+-.") - 1
@@ -289,7 +291,7 @@ contains
                 return
             end if
         end if
-        if (speaks_of_parameter()) then
+        if (any([(occurs(value, trim(d%parameters(i)%name)), i=1, size(d%parameters))])) then
             call fail(error, in_parameters)
             return
         end if
@@ -298,16 +300,6 @@ contains
         write (digits, "(ss, es26.17e3)") number
         value = trim(adjustl(digits))
     contains
-        logical function speaks_of_parameter()
-            integer :: i
-
-            speaks_of_parameter = .false.
-            do i = 1, size(d%parameters)
-                speaks_of_parameter = speaks_of_parameter .or. occurs(value, &
-                                                                      trim(d%parameters(i)%name))
-            end do
-        end function speaks_of_parameter
-
         pure logical function all_names_known()
             !! Those of other parameters: `m/s2`, `m (rod)` and the `m` of m = 2 m are units.
             integer :: at, element, first, last

@@ -22,13 +22,14 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! status 2: quotes the text
         character(:), allocatable :: phrase, problem
         type(symbols_t) :: none
+        logical :: in_degrees
         type(expression_t) :: formula(1)
         type(formula_program_t) :: program
         real(dp) :: results(1)
 
         value = 0.0_dp
-        call misread(trim(adjustl(text)), phrase, problem)
-        if (index(problem, "no degrees are read") == 1) then
+        call misread(trim(adjustl(text)), phrase, problem, in_degrees)
+        if (in_degrees) then
             call fail(error, quoted(phrase)//": "//problem)
             return
         end if

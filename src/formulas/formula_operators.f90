@@ -35,7 +35,7 @@ contains
             end if
             reader%at = reader%at + 1
         end if
-        if (is_alone(reader) .or. (next_is(reader, "|") .and. reader%bars == 0)) then  ! log|x|
+        if (is_alone(reader) .or. opens_bar(reader)) then  ! log|x|
             call read_factor(reader, symbols, argument, error)
         else if (next_is(reader, "(")) then
             call read_bracket(reader, symbols, argument, error)
@@ -63,6 +63,20 @@ contains
         call reader%expression%add_number(number_of(token%value), exponent)
         call reader%expression%add_operation(kind_power, argument, exponent, node)
     end subroutine read_function
+
+    pure function opens_bar(reader) result(yes)
+        !! Does a bar begin the argument of a function? Within other bars only where something
+        !! follows that it may begin, as in `|log|x||` and not in `|2 log|`.
+        type(reader_t), intent(in) :: reader  !! behind the function's name
+        logical :: yes
+        type(reader_t) :: inside
+
+        yes = next_is(reader, "|")
+        if (.not. yes .or. reader%bars == 0) return
+        inside = reader
+        inside%at = reader%at + 1
+        yes = begins_factor(inside) .or. inside%tokens%token(inside%at)%kind == is_number
+    end function opens_bar
 
     pure function is_alone(reader) result(yes)
         !! Is the argument of a function without brackets one name or number, behind which no factor

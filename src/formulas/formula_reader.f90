@@ -223,7 +223,7 @@ contains
         character(*), intent(in) :: name                  !! that is none of them
         type(error_t), allocatable, intent(out) :: error  !! always
         character(name_length), allocatable :: names(:)
-        character(:), allocatable :: factors, nearest
+        character(:), allocatable :: behind, factors, nearest
         logical :: applied
 
         if (is_unit(reader)) then
@@ -231,9 +231,10 @@ contains
                         "the number alone, or the formula in letters", error)
             return
         end if
-        applied = reader%tokens%word(min(reader%at + 1, size(reader%tokens%token))) == "("
+        behind = reader%tokens%word(min(reader%at + 1, size(reader%tokens%token)))
+        applied = behind == "("
         call symbols%all_names(names)
-        if (applied) then
+        if (applied .or. (behind == "|" .and. reader%bars == 0)) then  ! ln|x|
             nearest = nearest_function(name)
             if (nearest /= "") then
                 call refuse(reader, "unknown function "//quoted(name)//"; did you mean "// &

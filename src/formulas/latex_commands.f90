@@ -123,7 +123,8 @@ contains
         rest = source%text(behind:last)
         if (rest == "") return
         if (scan(rest, "([|") == 1 .or. index(rest, "\left") == 1 .or. index(rest, "\big") == 1 &
-            .or. index(rest, "\Big") == 1) return
+            .or. index(rest, "\Big") == 1 .or. index(rest, "\lvert") == 1 &
+            .or. index(rest, "\vert") == 1) return
         call put(source, "(", at)
         next = verify(rest//" ", digits//".") - 1
         if (next > 0) call put(source, rest(:next), behind)

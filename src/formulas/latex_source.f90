@@ -182,7 +182,7 @@ contains
         else if (any(functions == name)) then
             call take_function(source, name, at, last, behind, error)
         else if (any(upright == name)) then
-            call take_upright(source, at, last, behind)
+            call take_upright(source, at, last, behind, error)
         else if (any(nothing == name)) then
             if (any(name == ["left ", "right"]) .and. &
                 source%text(behind:min(behind, last)) == ".") behind = behind + 1
@@ -420,15 +420,21 @@ contains
         call take_index(source, last, behind)
     end subroutine take_letters
 
-    pure subroutine take_upright(source, at, last, behind)
-        !! `\text{const}`, `\mathrm{d}`: one word.
+    pure recursive subroutine take_upright(source, at, last, behind, error)
+        !! `\text{const}`, `\mathrm{d}`: one word; `\operatorname{ln}` is a function.
         type(source_t), intent(inout) :: source
         integer, intent(in) :: at, last
         integer, intent(inout) :: behind
+        type(error_t), allocatable, intent(out) :: error
         integer :: first, i
 
         first = behind
         call find_group(source, first, last, behind)
+        do i = 1, size(functions)
+            if (adjustl(source%text(first:behind - 1)) /= "{"//trim(functions(i))//"}") cycle
+            call take_function(source, trim(functions(i)), at, last, behind, error)
+            return
+        end do
         call put_name(source, "", at)
         do i = first, behind - 1
             if (scan(source%text(i:i), inside//". ") == 1) call put(source, source%text(i:i), i)

@@ -6,16 +6,15 @@ module lagrangia_amplitude_ratios
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_frequency_squares, only: with_squares
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
-    use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_names, only: name_length
-    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
+    use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_rounded_numbers, only: holds_at
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: holds
     use lagrangia_symbols, only: symbols_t
     use lagrangia_unknown_names, only: add_unknown, unknown_names
+    use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     use lagrangia_verdict, only: brief, is_right, is_unreadable, is_wrong, judgement_t
     implicit none (type, external)
     private
@@ -197,26 +196,16 @@ contains
         real(dp), intent(in) :: stiffness(:, :), inertia(:, :)
         real(dp), intent(out) :: omega2(:), amplitudes(:, :)
         logical, intent(out) :: known
-        real(dp) :: a(size(omega2), size(omega2)), im(size(omega2)), none(1, 1)
-        real(dp) :: work(20*size(omega2) + 100)
-        type(error_t), allocatable :: error
-        integer :: info, j, n
+        integer :: j
 
-        n = size(omega2)
         omega2 = 0.0_dp
         amplitudes = 0.0_dp
         known = all_finite(stiffness) .and. all_finite(inertia) .and. &
                 any(is_nonzero(stiffness))
         if (.not. known) return
-        do j = 1, n
-            call solve_linear(inertia, stiffness(:, j), a(:, j), error)
-            known = .not. allocated(error)
-            if (.not. known) return
-        end do
-        call dgeev("N", "V", n, a, n, omega2, im, none, 1, amplitudes, n, work, size(work), info)
-        known = info == 0 .and. all(is_zero(im))
+        call unsymmetric_modes(stiffness, inertia, omega2, amplitudes, known)
         where (abs(omega2) <= rounding*maxval(abs(omega2))) omega2 = 0.0_dp
-        do j = 2, n
+        do j = 2, size(omega2)
             known = known .and. all(abs(omega2(:j - 1) - omega2(j)) > equal*maxval(abs(omega2)))
         end do
     end subroutine solve_modes

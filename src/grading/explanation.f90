@@ -8,6 +8,8 @@ module lagrangia_explanation
         !! Of one wrong statement; the text is empty where none is found.
         character(:), allocatable :: text   !! the change, for the student
         character(:), allocatable :: lacks  !! what is missing on the left side, if that is known
+        integer :: width = huge(0)
+        !! of the change, from that of a sign to that of several terms
         logical :: is_vague = .false.
         !! a term is missing whose factor is not known, or a factor that stands for a formula
         logical :: is_surplus = .false.     !! a term does not belong there

@@ -2,16 +2,17 @@ module lagrangia_judged_equality
     !! Is this equality right? Both sides are evaluated on the motion, at states and with parameters
     !! at random: any equivalent form is right, whatever it was multiplied by or mixed with.
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_function, kind_number, kind_symbol, &
-                                    operator(-)
+    use lagrangia_expression, only: expression_t, f_exp, kind_function, kind_number, kind_power, &
+                                    kind_product, kind_symbol, operator(-)
     use lagrangia_further_slips, only: explain_further
     use lagrangia_kinds, only: dp
-    use lagrangia_mode_choice, only: choose_modes
+    use lagrangia_mode_choice, only: choose_modes, explain_modes, put_mode
     use lagrangia_mode_samples, only: put_places
+    use lagrangia_number_class, only: is_nonzero
     use lagrangia_rounded_numbers, only: holds_to_digits, to_digits, true_number
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: samples_t
-    use lagrangia_sampled_formula, only: change_sign, change_t
+    use lagrangia_sampled_formula, only: change_sign, change_t, evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
@@ -21,7 +22,7 @@ module lagrangia_judged_equality
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
     use lagrangia_term_search, only: context, library_t, part_text
-    use lagrangia_text, only: quoted
+    use lagrangia_text, only: quoted, to_text
     use lagrangia_unknown_names, only: hidden
     use lagrangia_verdict, only: but_for_constant, is_right, is_unreadable, is_wrong, &
                                  judgement_t, put_example
@@ -116,7 +117,7 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! gets it
         character(*), parameter :: unknown = "unknown name '", near = "; did you mean '"
         character(:), allocatable :: name
-        integer :: first, length
+        integer :: first, i, length
 
         judgement%verdict = is_unreadable
         judgement%remark = error%message
@@ -125,7 +126,7 @@ contains
         length = index(error%message(first:), "'") - 1
         if (first == len(unknown)) return
         name = error%message(first:first + length - 1)
-        if (index(name, "_0", back=.true.) == len(name) - 1) then
+        if (len(name) > 2 .and. index(name, "_0", back=.true.) == len(name) - 1) then
             name = name(:len(name) - 2)//"_eq"  ! of theta_0
             if (samples%symbols%find(name) > 0) then
                 first = index(judgement%remark//near, near)
@@ -137,6 +138,12 @@ contains
         if (any(samples%declared == name)) then
             judgement%remark = error%message(:first - len(unknown) - 1)//quoted(name)// &
                 " is a constant, and no line before says what it has to do with the motion"
+            do i = 1, size(samples%energies)
+                if (any(samples%energies(i)%names == name)) judgement%remark = &
+                    error%message(:first - len(unknown) - 1)//quoted(name)//" is that of line "// &
+                    to_text(samples%energies(i)%line)//", which gives it no value: where "// &
+                    "E is zero is anybody's choice"
+            end do
             return
         end if
         if (length > 3) return
@@ -200,9 +207,8 @@ contains
             judgement%remark = value_remark(left, right, samples)
         else if (.not. judged) then
             judgement%verdict = is_unreadable
-            judgement%remark = "no number at the states that were tried: a root, a logarithm "// &
-                "or a "// &
-                               "division fails"
+            judgement%remark = "no number at the states that were tried: "// &
+                               why_no_number(judgement%residual, values)
         else if (right_one) then
             judgement%of_motion = .not. is_trivial(judgement%residual, samples)
             if (.not. judgement%of_motion) judgement%remark = "true of any motion"
@@ -215,19 +221,20 @@ contains
         else
             judgement%verdict = is_wrong
             if (.not. explain) return
-            call put_example(left, right, samples, values, judgement%example)
             call explain_it()
         end if
     contains
         subroutine explain_it()
             !! From the narrowest change to the widest.
-            integer :: first
+            integer :: first, mode
 
             first = merge(left%count + 1, 1, chained)
             associate (residual => judgement%residual, explanation => judgement%explanation)
-                call explain_slip(residual, first, samples, values, library, explanation)
+                call explain_modes(residual, first, samples, values, library, explanation, mode)
                 if (explanation%is_empty()) call explain_squares(left, right, samples, library, &
-                                                                 explanation)
+                                                                 explanation, mode)
+                if (mode > 1) call put_mode(samples, mode, values)
+                call put_example(left, right, samples, values, judgement%example)
                 if (explanation%is_empty() .and. is_energy(left, samples)) then
                     call put_same_constant(left, residual, samples, values)
                     call explain_slip(residual, first, samples, values, library, explanation)
@@ -240,6 +247,36 @@ contains
             call judgement%say_why()
         end subroutine explain_it
     end subroutine judge_pair
+
+    function why_no_number(residual, values) result(reason)
+        !! What keeps a statement from having a value.
+        type(expression_t), intent(in) :: residual  !! left less right side
+        real(dp), intent(in) :: values(:, :)        !! (samples, symbols)
+        character(:), allocatable :: reason
+        real(dp), dimension(size(values, 1), residual%count) :: results, sizes
+        logical :: extreme
+        integer :: i
+
+        call evaluate_nodes(residual, values, results, sizes=sizes)
+        associate (size_of => sizes(:, residual%count))
+            extreme = any(size_of > 0.0_dp .and. size_of*epsilon(size_of) < tiny(size_of))
+        end associate
+        do i = 1, residual%count
+            associate (node => residual%nodes(i))
+                if (node%kind == kind_power) extreme = extreme .or. &
+                    any(abs(results(:, i)) > huge(results) .and. &
+                        is_nonzero(results(:, node%left)))
+                if (node%kind == kind_product) extreme = extreme .or. &
+                    any(abs(results(:, i)) > huge(results) .and. &
+                        abs(results(:, node%left)) <= huge(results) .and. &
+                        abs(results(:, node%right)) <= huge(results))
+                if (node%kind == kind_function .and. node%which == f_exp) extreme = &
+                    extreme .or. any(abs(results(:, i)) > huge(results))
+            end associate
+        end do
+        reason = "a root, a logarithm or a division fails"
+        if (extreme) reason = "terms are too large or too small to be compared"
+    end function why_no_number
 
     subroutine explain_but_constant(residual, first, samples, remark)
         !! The sign that makes an energy right but for a constant: of cos(theta) in

@@ -18,7 +18,7 @@ module lagrangia_judged_sheet
     use lagrangia_verdict, only: as_new_name, one_of_many
     implicit none (type, external)
     private
-    public :: judge_sheet
+    public :: judge_sheet, reason_text
 
 contains
 
@@ -103,7 +103,7 @@ contains
                                        judgement%because)
                 if (allocated(judgement%defines)) call consequences%add_names(samples%symbols)
                 if (size(judgement%because) > 0) then
-                    call put_consequence(homework, judgement)
+                    call judgement%put_reason(reason_text(homework, judgement%because))
                     call consequences%add_consequence(judgement%because, judgement%residual, &
                                                       samples)
                 else
@@ -261,18 +261,19 @@ contains
         if (yes) yes = scan(statement(at - 1:at - 1), "LTVU)") == 0
     end function has_double_prime
 
-    pure subroutine put_consequence(homework, judgement)
-        !! The mistake was made before.
-        type(homework_t), intent(in) :: homework
-        type(judgement_t), intent(inout) :: judgement
+    pure function reason_text(homework, because) result(text)
+        !! In which lines the mistake was made.
+        type(homework_t), intent(in) :: homework    !! the sheet
+        integer, intent(in) :: because(:)           !! statements that are wrong, one or two
+        character(:), allocatable :: text
 
-        associate (lines => homework%statements(judgement%because)%line)
+        associate (lines => homework%statements(because)%line)
             if (size(lines) == 1) then
-                call judgement%put_reason("from line "//to_text(lines(1))//", which is wrong")
+                text = "from line "//to_text(lines(1))//", which is wrong"
             else
-                call judgement%put_reason("from lines "//to_text(minval(lines))//" and "// &
-                                          to_text(maxval(lines))//", which are wrong")
+                text = "from lines "//to_text(minval(lines))//" and "//to_text(maxval(lines))// &
+                       ", which are wrong"
             end if
         end associate
-    end subroutine put_consequence
+    end function reason_text
 end module lagrangia_judged_sheet

@@ -210,7 +210,7 @@ contains
 
     subroutine try_fixed_motion(statement, samples, library, judgement)
         !! Behind `x = 0.1 cos(20 t)` is `E = 1` about this motion, behind `x = A cos(omega t)` is
-        !! `x_dot = -omega x tan(omega t)`.
+        !! `x_dot = -omega x tan(omega t)`; of several coordinates about those that move so.
         type(statement_t), intent(in) :: statement      !! wrong of any motion
         type(samples_t), intent(in) :: samples          !! know the motion
         type(library_t), intent(in) :: library(:)       !! right terms
@@ -218,10 +218,19 @@ contains
         type(judgement_t) :: attempt
         type(samples_t) :: there
         type(expression_t) :: nothing
+        logical :: known(samples%ndof)
         integer :: k
 
-        do k = 1, samples%ndof
-            if (samples%motion(k)%count == 0 .or. .not. samples%exact_motion(k)) return
+        known = samples%motion%count > 0 .and. samples%exact_motion
+        if (.not. (all(known) .or. (any(known) .and. judgement%residual%count > 0))) return
+        do k = 2, size(samples%role)
+            if (all(known)) exit
+            if (.not. judgement%residual%depends_on(k)) cycle
+            if (k <= 1 + 3*samples%ndof) then
+                if (.not. known(1 + mod(k - 2, samples%ndof))) return
+            else if (samples%role(k) /= role_parameter .or. samples%rate(k) > 0) then
+                return
+            end if
         end do
         call put_on_motion(samples, there)
         call judge_line(statement, there, library, .false., attempt)

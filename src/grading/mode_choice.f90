@@ -1,15 +1,17 @@
 module lagrangia_mode_choice
-    !! Which mode a statement speaks of.
+    !! Which mode a statement speaks of, or a wrong one may speak of.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
     use lagrangia_number_class, only: is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
-    use lagrangia_slip_search, only: holds
+    use lagrangia_slip_search, only: explain_slip, holds
+    use lagrangia_term_search, only: library_t
     implicit none (type, external)
     private
-    public :: choose_modes
+    public :: choose_modes, explain_modes, put_mode
 
 contains
 
@@ -37,6 +39,49 @@ contains
         if (found .and. .not. right_one) values = first_choice
         found = found .or. found_one
     end subroutine choose_modes
+
+    subroutine explain_modes(expression, first, samples, values, library, explanation, mode)
+        !! The narrowest change that makes a statement right, for omega of any mode.
+        type(expression_t), intent(in) :: expression         !! left side less right side, wrong
+        integer, intent(in) :: first                         !! nodes before it are right
+        type(samples_t), intent(in) :: samples               !! know the modes
+        real(dp), intent(in) :: values(:, :)                 !! of the symbols, omega of the first
+        type(library_t), intent(in) :: library(:)            !! right terms
+        type(explanation_t), intent(out) :: explanation      !! empty if there is none
+        integer, intent(out) :: mode                         !! of which it is right then
+        type(explanation_t) :: other
+        real(dp) :: there(size(values, 1), size(values, 2))
+        integer :: k
+
+        mode = 1
+        call explain_slip(expression, first, samples, values, library, explanation)
+        if (.not. (expression%depends_on(samples%frequency) .or. &
+                   expression%depends_on(samples%frequency + 1))) return
+        there = values
+        do k = 2, samples%ndof
+            call put_mode(samples, k, there)
+            call explain_slip(expression, first, samples, there, library, other)
+            if (other%is_empty() .or. .not. (explanation%is_empty() .or. &
+                                             other%width < explanation%width)) cycle
+            explanation = other
+            mode = k
+        end do
+    end subroutine explain_modes
+
+    pure subroutine put_mode(samples, mode, values)
+        !! Give omega the values of one mode about the first equilibrium.
+        type(samples_t), intent(in) :: samples     !! know the modes
+        integer, intent(in) :: mode                !! from 1, the slowest
+        real(dp), intent(inout) :: values(:, :)    !! of the symbols
+        integer :: row
+
+        do row = 1, size(values, 1)
+            associate (omega2 => samples%omega2(1 + (row - 1)/states, mode))
+                values(row, samples%frequency) = sqrt(omega2)
+                values(row, samples%frequency + 1) = omega2
+            end associate
+        end do
+    end subroutine put_mode
 
     subroutine choose_about(omega2, residual, samples, values, right_one, found)
         !! About one equilibrium; no number for draws without an oscillation. Two draws must match.

@@ -5,12 +5,11 @@ module lagrangia_mode_samples
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
-    use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     implicit none (type, external)
     private
     public :: add_modes, put_places, stable_somewhere
@@ -96,7 +95,8 @@ contains
             !! those by the velocities to G, which stays NaN where constraints bind.
             type(modes_t), intent(in) :: modes
             real(dp), intent(inout) :: stiffness(:, :), turning(:, :), omega2(:)
-            real(dp), dimension(n, n) :: beside, drag
+            real(dp), dimension(n, n) :: beside, drag, shapes
+            logical :: known
 
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
@@ -107,30 +107,9 @@ contains
             if (any(is_nonzero(turning))) then
                 omega2 = 0.0_dp
             else
-                call put_squares(stiffness, modes%mass, omega2)
+                call unsymmetric_modes(stiffness, modes%mass, omega2, shapes, known)
             end if
         end subroutine put_forces
-
-        subroutine put_squares(stiffness, mass, omega2)
-            !! Of a K that may have no symmetry, ascending; 0 where they are no real numbers.
-            real(dp), intent(in) :: stiffness(:, :), mass(:, :)
-            real(dp), intent(out) :: omega2(:)
-            real(dp) :: a(n, n), im(n), left(1, n), of(n), right(1, n), work(4*n)
-            integer :: info, j
-
-            omega2 = 0.0_dp
-            do j = 1, n
-                call solve_linear(mass, stiffness(:, j), a(:, j), error)
-                if (allocated(error)) return
-            end do
-            call dgeev("N", "N", n, a, n, of, im, left, 1, right, 1, work, size(work), &
-                       info)
-            if (info /= 0 .or. any(is_nonzero(im))) return
-            do j = 1, n
-                omega2(j) = minval(of)
-                of(minloc(of, 1)) = huge(of)
-            end do
-        end subroutine put_squares
 
         subroutine damp(modes, omega2)
             !! \(\omega^2 = K/M - (C/2M)^2\).

@@ -1,7 +1,7 @@
 module lagrangia_order_of_approximation
     !! Approximations near an equilibrium: \(\cos\theta \approx 1 - \theta^2/2\) holds to
     !! the order that is written, \(\cos\theta \approx 1 - \theta^2\) to the first only.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_expression, only: expression_t, kind_difference, kind_negation, kind_number, &
                                     kind_power, kind_product, kind_quotient, kind_sum, &
                                     kind_symbol, operator(+), operator(-), symbol, whole
@@ -17,7 +17,7 @@ module lagrangia_order_of_approximation
     private
     public :: is_negligible, order_that_fails
 
-    integer, parameter :: no_polynomial = -1
+    real(dp), parameter :: no_polynomial = -1.0_dp
 
 contains
 
@@ -34,29 +34,28 @@ contains
         logical, intent(in) :: of_energies             !! known to second order, else to the first
         logical, intent(in) :: counted_from_it         !! coordinates, from the equilibrium
         real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
-        integer :: order
+        real(dp) :: order
         type(expression_t) :: residual
-        integer :: degrees(2), k, n
+        real(dp) :: degrees(2), highest
+        integer :: k, n
         logical :: at_rest                             !! no velocities are compared
 
-        order = 0
+        order = 0.0_dp
         n = samples%ndof
         at_rest = has_accelerations(left, samples) .or. has_accelerations(right, samples)
         degrees = [degree(left, samples, .not. at_rest), degree(right, samples, .not. at_rest)]
-        if (maxval(degrees) <= merge(2, 1, of_energies)) return
-        if (.not. (given .or. of_energies .or. at_rest .or. minval(degrees) == no_polynomial)) then
-            return
-        end if
+        highest = maxval(degrees)
+        if (highest <= merge(2.0_dp, 1.0_dp, of_energies)) return
+        if (.not. (given .or. of_energies .or. at_rest .or. any(degrees < 0.0_dp))) return
         residual = exact(left) - exact(right)
         do k = 1, size(samples%role)
             if (any(samples%role(k) == [role_coordinate, role_parameter])) cycle
             if (.not. at_rest .and. samples%role(k) == role_velocity) cycle
             if (residual%depends_on(k) .and. all(samples%place /= k)) return
         end do
-        k = maxval(degrees)
-        if (leading_order(residual, samples, of_energies, counted_from_it, shown) < k + 0.5_dp) then
-            order = k
-        end if
+        ! between this order and the next whole one
+        if (2.0_dp*leading_order(residual, samples, of_energies, counted_from_it, shown) < &
+            highest + aint(highest) + 1.0_dp) order = highest
     contains
         function exact(side)
             !! Energies written out, and accelerations of a motion at a turning point.
@@ -121,7 +120,7 @@ contains
 
     function leading_order(residual, samples, but_constant, counted_from_it, shown) result(order)
         !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\),
-        !! from the equilibrium; infinite where it vanishes to rounding.
+        !! from the equilibrium; infinite where it vanishes to rounding, NaN where it has no value.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         logical, intent(in) :: but_constant            !! less what it is at rest
@@ -137,24 +136,23 @@ contains
 
         order = huge(order)
         at_rest = 0.0_dp
+        allocate (values, source=shown)
         allocate (results(size(shown, 1), residual%count), sizes(size(shown, 1), residual%count))
         if (but_constant) then
-            allocate (values, source=shown)
             call scale(0.0_dp)
             call evaluate_nodes(residual, values, results)
             at_rest = results(:, residual%count)
-            deallocate (values)
         end if
         do k = 0, 5
-            allocate (values, source=shown)
+            values = shown
             call scale(amplitude/4.0_dp**k)
             far = beside_rest()
             call scale(0.5_dp)
             near = beside_rest()
             sound = ieee_is_finite(far) .and. near > rounding*sizes(:, residual%count)
+            if (.not. any(ieee_is_finite(near))) order = ieee_value(order, ieee_quiet_nan)
             if (.not. any(sound)) return
             order = log(sum(far, mask=sound)/sum(near, mask=sound))/log(2.0_dp)
-            deallocate (values)
         end do
     contains
         function beside_rest() result(size_of)
@@ -186,48 +184,47 @@ contains
         type(expression_t), intent(in) :: expression
         type(samples_t), intent(in) :: samples
         logical, intent(in) :: of_velocities  !! and in all velocities
-        integer :: highest
-        integer :: of(expression%count)
+        real(dp) :: highest
+        real(dp) :: of(expression%count)
         integer :: i
 
         do i = 1, expression%count
             associate (node => expression%nodes(i))
                 select case (node%kind)
                 case (kind_number)
-                    of(i) = 0
+                    of(i) = 0.0_dp
                 case (kind_symbol)
-                    of(i) = merge(1, 0, samples%role(node%which) == role_coordinate .or. &
+                    of(i) = merge(1.0_dp, 0.0_dp, samples%role(node%which) == role_coordinate .or. &
                                   (of_velocities .and. samples%role(node%which) == role_velocity))
                 case (kind_sum, kind_difference)
                     of(i) = max(of(node%left), of(node%right))
-                    if (min(of(node%left), of(node%right)) < 0) of(i) = no_polynomial
+                    if (min(of(node%left), of(node%right)) < 0.0_dp) of(i) = no_polynomial
                 case (kind_product)
                     of(i) = of(node%left) + of(node%right)
-                    if (min(of(node%left), of(node%right)) < 0) of(i) = no_polynomial
+                    if (min(of(node%left), of(node%right)) < 0.0_dp) of(i) = no_polynomial
                 case (kind_quotient)
-                    of(i) = merge(of(node%left), no_polynomial, of(node%right) == 0)
+                    of(i) = merge(of(node%left), no_polynomial, is_zero(of(node%right)))
                 case (kind_power)
                     of(i) = of_power(node%left, node%right)
                 case (kind_negation)
                     of(i) = of(node%left)
                 case default  ! a function
-                    of(i) = merge(0, no_polynomial, of(node%left) == 0)
+                    of(i) = merge(0.0_dp, no_polynomial, is_zero(of(node%left)))
                 end select
             end associate
         end do
         highest = of(expression%count)
     contains
         pure function of_power(base, exponent) result(product_of)
-            !! A whole exponent multiplies the degree.
+            !! An exponent multiplies the degree, be it whole or not.
             integer, intent(in) :: base, exponent  !! nodes
-            integer :: product_of
-            real(dp) :: times
+            real(dp) :: product_of
 
-            product_of = merge(0, no_polynomial, of(base) == 0 .and. of(exponent) == 0)
-            if (of(base) <= 0 .or. expression%nodes(exponent)%kind /= kind_number) return
-            times = expression%nodes(exponent)%number%value
-            if (times < 0.0_dp .or. times > 100.0_dp) return
-            if (is_zero(times - anint(times))) product_of = of(base)*nint(times)
+            product_of = merge(0.0_dp, no_polynomial, is_zero(of(base)) .and. is_zero(of(exponent)))
+            if (of(base) <= 0.0_dp .or. expression%nodes(exponent)%kind /= kind_number) return
+            associate (times => expression%nodes(exponent)%number%value)
+                if (times >= 0.0_dp) product_of = of(base)*times
+            end associate
         end function of_power
     end function degree
 end module lagrangia_order_of_approximation

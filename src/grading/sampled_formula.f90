@@ -1,6 +1,6 @@
 module lagrangia_sampled_formula
     !! A formula's value at many samples at once, and what it would be with one node changed.
-    use lagrangia_expression, only: expression_t, f_cos, f_sin, function_value, &
+    use lagrangia_expression, only: expression_t, f_cos, f_exp, f_sin, function_value, &
                                     kind_difference, kind_negation, &
                                     kind_number, kind_power, kind_product, kind_quotient, &
                                     kind_sum, kind_symbol
@@ -38,7 +38,8 @@ contains
 
     subroutine evaluate_nodes(expression, values, results, change, sizes)
         !! The values of all nodes; that of the whole formula is the last. Their `sizes` say how
-        !! large the rounding errors may be, in units of the relative error of one operation.
+        !! large the rounding errors may be, in units of the relative error of one operation; they
+        !! do not underflow where the values of what is not 0 do.
         type(expression_t), intent(in) :: expression      !! not empty
         real(dp), intent(in) :: values(:, :)              !! of the symbols, (samples, symbols)
         real(dp), intent(out) :: results(:, :)
@@ -114,8 +115,11 @@ contains
                     sizes(:, i) = sizes(:, node%left) + sizes(:, node%right)
                 case (kind_product)
                     sizes(:, i) = sizes(:, node%left)*sizes(:, node%right)
+                    call keep_from_zero(sizes(:, node%left) > 0.0_dp .and. &
+                                        sizes(:, node%right) > 0.0_dp)
                 case (kind_quotient)
                     sizes(:, i) = sizes(:, node%left)*sizes(:, node%right)/results(:, node%right)**2
+                    call keep_from_zero(sizes(:, node%left) > 0.0_dp)
                 case (kind_negation)
                     sizes(:, i) = sizes(:, node%left)
                 case (kind_power)
@@ -126,16 +130,27 @@ contains
                     else where
                         sizes(:, i) = sizes(:, node%left)**sizes(:, i)
                     end where
+                    call keep_from_zero(sizes(:, node%left) > 0.0_dp)
                 case default
                     if (node%which == f_sin .or. node%which == f_cos) then
                         sizes(:, i) = x + sizes(:, node%left)
+                    else if (node%which == f_exp) then
+                        sizes(:, i) = x*(1.0_dp + sizes(:, node%left))
+                        call keep_from_zero(x >= 0.0_dp)
                     else
                         sizes(:, i) = (1.0_dp + x)*(1.0_dp + sizes(:, node%left))
                     end if
                 end select
-                sizes(:, i) = max(sizes(:, i), x)
+                where (sizes(:, i) < x) sizes(:, i) = x  ! and NaN stays
             end associate
         end subroutine measure
+
+        subroutine keep_from_zero(those)
+            !! The size of what is not 0, where it underflows.
+            logical, intent(in) :: those(:)
+
+            where (those .and. sizes(:, i) < tiny(sizes)) sizes(:, i) = tiny(sizes)
+        end subroutine keep_from_zero
     end subroutine evaluate_nodes
 
     elemental function power(x, y) result(value)

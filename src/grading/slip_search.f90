@@ -8,7 +8,7 @@ module lagrangia_slip_search
                                     kind_power, kind_quotient, kind_symbol, operator(/)
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
-    use lagrangia_number_class, only: is_zero
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
                                       role_parameter, role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
@@ -25,12 +25,14 @@ module lagrangia_slip_search
 
     real(dp), parameter :: zero = 1e-9_dp   !! of the sizes of what is added up
     integer, parameter :: enough = 4        !! samples at which all is finite
+    integer, parameter :: widest = 13       !! kinds of changes, from a sign to two terms
 
 contains
 
     subroutine holds(expression, values, yes, judged, change)
-        !! Does the formula vanish at every sample? `judged` if it has a value at enough of them. An
-        !! exponent of -1 makes none where rounding leaves nothing of it: sin(1/theta) at 1e-9.
+        !! Does the formula vanish at every sample? `judged` if it has a value at enough of them.
+        !! Where its terms underflow it has none, and where an exponent of -1 makes one term so
+        !! large that rounding leaves nothing of another: 1/sin(theta) - theta at 1e-9.
         type(expression_t), intent(in) :: expression    !! left side less right side
         real(dp), intent(in) :: values(:, :)            !! of the symbols, (samples, symbols)
         logical, intent(out) :: yes                     !! it does
@@ -45,10 +47,13 @@ contains
         call evaluate_nodes(expression, values, results, change, sizes)
         n = expression%count
         finite = ieee_is_finite(results(:, n)) .and. ieee_is_finite(sizes(:, n))
+        finite = finite .and. .not. (sizes(:, n) > 0.0_dp .and. zero*sizes(:, n) < tiny(zero))
         if (present(change)) then
             if (change%kind == change_exponent .and. change%factor < 0.0_dp) then
                 call summands(expression, nodes, signs)
-                finite = finite .and. zero*sizes(:, n) <= maxval(abs(results(:, nodes)), 2)
+                finite = finite .and. any(is_nonzero(results(:, nodes)), 2) .and. &
+                         zero*sizes(:, n) <= minval(abs(results(:, nodes)), 2, &
+                                                    is_nonzero(results(:, nodes)))
             end if
         end if
         judged = count(finite) >= min(enough, size(values, 1))
@@ -82,24 +87,28 @@ contains
             if (samples%role(i) /= role_acceleration .and. samples%role(i) < role_known) cycle
             if (expression%depends_on(i)) could_be_trivial = .false.
         end do
-        call try_signs(remark)
-        if (remark == "") call try_functions(remark)
-        if (remark == "") call try_symbols(remark)
-        if (remark == "") call try_dots(remark)
-        if (remark == "") call try_exponents(remark)
-        if (remark == "") call try_factors(expression, first, samples, values, library, remark, &
-                                           explanation%is_surplus, explanation%is_vague)
-        if (remark == "") call try_numbers(remark)
-        if (remark == "") call try_squares(remark)
-        if (remark == "") call try_products(expression, first, samples, values, library, remark)
-        if (remark == "") call try_missing_terms(expression, samples, values, library, remark, &
-                                                 explanation%lacks, explanation%is_vague)
-        explanation%text = remark
-        if (remark /= "" .or. explanation%is_vague) return
-        call try_inner_factors(remark)
-        if (remark == "") call try_throughout(remark)
-        if (remark == "") call two_factors(expression, samples, values, library, &
+        do i = 1, widest
+            explanation%width = i
+            select case (i)
+            case (1); call try_signs(remark)
+            case (2); call try_functions(remark)
+            case (3); call try_symbols(remark)
+            case (4); call try_dots(remark)
+            case (5); call try_exponents(remark)
+            case (6); call try_factors(expression, first, samples, values, library, remark, &
+                                       explanation%is_surplus, explanation%is_vague)
+            case (7); call try_numbers(remark)
+            case (8); call try_squares(remark)
+            case (9); call try_products(expression, first, samples, values, library, remark)
+            case (10); call try_missing_terms(expression, samples, values, library, remark, &
+                                              explanation%lacks, explanation%is_vague)
+            case (11); call try_inner_factors(remark)
+            case (12); call try_throughout(remark)
+            case default; call two_factors(expression, samples, values, library, &
                                            could_be_trivial, remark)
+            end select
+            if (remark /= "" .or. explanation%is_vague) exit
+        end do
         explanation%text = remark
     contains
         logical function mends(change)
@@ -173,9 +182,7 @@ contains
                         do k = 1, size(samples%role)
                             if (k == node%which .or. &
                                 expression%depends_on(k) .neqv. pass == 1) cycle
-                            if (.not. (exchangeable(samples%role(node%which), samples%role(k)) &
-                                       .or. (samples%role(node%which) == role_parameter .and. &
-                                             any(samples%place == k)))) cycle
+                            if (.not. exchangeable(node%which, k, samples)) cycle
                             if (is_always_zero(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
@@ -223,7 +230,8 @@ contains
                 if (.not. expression%depends_on(a)) cycle
                 do b = 2, size(samples%role)
                     if (a == b .or. samples%role(a) /= samples%role(b)) cycle
-                    if (samples%role(a) >= role_known) exit
+                    if (samples%role(a) >= role_known .and. .not. &
+                        (is_of_mass(a, samples) .and. is_of_mass(b, samples))) cycle
                     if (is_always_zero(a) .or. is_always_zero(b)) cycle
                     changed = values
                     elsewhere = samples%elsewhere
@@ -408,15 +416,30 @@ contains
         end function node_text
     end subroutine explain_slip
 
-    pure function exchangeable(a, b) result(yes)
-        !! May a student have written the one for the other? Letters for letters, a coordinate for
-        !! another, or with a dot too many or too few.
-        integer, intent(in) :: a, b
+    pure function exchangeable(a, b, samples) result(yes)
+        !! May a student have written the one for the other? Letters for letters or for the place
+        !! of an equilibrium, a coordinate for another, a place of a mass for another, or with a
+        !! dot too many or too few.
+        integer, intent(in) :: a, b             !! symbols
+        type(samples_t), intent(in) :: samples  !! know their roles
         logical :: yes
         integer, parameter :: moving(*) = [role_time, role_coordinate, role_velocity, &
                                            role_acceleration]
 
-        yes = (a == role_parameter .and. b == role_parameter) .or. (any(moving == a) .and. &
-            any(moving == b))
+        associate (one => samples%role(a), other => samples%role(b))
+            yes = (one == role_parameter .and. (other == role_parameter .or. &
+                                                any(samples%place == b))) .or. &
+                  (any(moving == one) .and. any(moving == other)) .or. &
+                  (is_of_mass(a, samples) .and. is_of_mass(b, samples))
+        end associate
     end function exchangeable
+
+    pure function is_of_mass(k, samples) result(yes)
+        !! Is it the place of a mass, or a rate of one?
+        integer, intent(in) :: k                !! a symbol
+        type(samples_t), intent(in) :: samples  !! know which these are
+        logical :: yes
+
+        yes = k >= samples%first_point .and. k <= samples%last_point
+    end function is_of_mass
 end module lagrangia_slip_search

@@ -4,6 +4,7 @@ module lagrangia_small_judgement
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
+    use lagrangia_number_class, only: is_zero
     use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
     use lagrangia_sample_names, only: role_acceleration, role_known, role_parameter, &
                                       role_time, samples_t, states
@@ -13,8 +14,7 @@ module lagrangia_small_judgement
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_statement_forms, only: speaks_of_place
-    use lagrangia_term_search, only: library_t
-    use lagrangia_text, only: to_text
+    use lagrangia_term_search, only: library_t, number_text
     use lagrangia_verdict, only: but_for_constant, is_unreadable, is_wrong, judgement_t, &
                                  put_example
     use lagrangia_written_out, only: energy_places, in_coordinates, written_out
@@ -63,17 +63,19 @@ contains
                                     (about_other .and. .not. about_first))
         if (.not. right_one) call compare(.false., .false.)
         if (right_one) then
-            call judge_order(.false.)
+            call judge_order(left, right, samples, given, .false., .false., shown, explain, &
+                             judgement)
             return
         end if
-        if (judged) then
+        if (judgement%remark == "") then
             if (is_negligible(judgement%residual, samples, shown)) return
         end if
         call compare(.true., .true.)
         if (.not. right_one) call compare(.false., .true.)
         if (right_one) then
             judgement%remark = "if the coordinates are counted from the equilibrium"
-            call judge_order(.true.)
+            call judge_order(left, right, samples, given, .false., .true., shown, explain, &
+                             judgement)
             return
         end if
         call compare(about_other, .false.)
@@ -104,19 +106,6 @@ contains
             if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
         end subroutine compare
 
-        subroutine judge_order(counted_from_it)
-            !! It is right to first order; does it hold to the one that it writes?
-            logical, intent(in) :: counted_from_it
-
-            k = order_that_fails(left, right, samples, given, .false., counted_from_it, shown)
-            if (k == 0) return
-            judgement%verdict = is_wrong
-            if (.not. explain) return
-            judgement%remark = "terms of order "//to_text(k)//" are written, to which it does "// &
-                               "not hold; it does to first order"
-            call put_example(left, right, samples, shown, judgement%example)
-        end subroutine judge_order
-
         subroutine find_rest(other, yes)
             !! Does it hold at rest, at one equilibrium?
             logical, intent(in) :: other
@@ -132,6 +121,29 @@ contains
             call holds(judgement%residual, rest, yes, any_number)
         end subroutine find_rest
     end subroutine judge_small
+
+    subroutine judge_order(left, right, samples, given, of_energies, counted_from_it, shown, &
+                           explain, judgement)
+        !! It is right to first order, L and energies to second; does it hold to the order that it
+        !! writes?
+        type(expression_t), intent(in) :: left, right   !! written out
+        type(samples_t), intent(in) :: samples
+        logical, intent(in) :: given                    !! a momentum is on the left side
+        logical, intent(in) :: of_energies
+        logical, intent(in) :: counted_from_it          !! coordinates, from the equilibrium
+        real(dp), intent(in) :: shown(:, :)             !! states of any amplitude
+        logical, intent(in) :: explain
+        type(judgement_t), intent(inout) :: judgement
+        real(dp) :: order
+
+        order = order_that_fails(left, right, samples, given, of_energies, counted_from_it, shown)
+        if (is_zero(order)) return
+        judgement%verdict = is_wrong
+        if (.not. explain) return
+        judgement%remark = "terms of order "//number_text(order)//" are written, to which it "// &
+            "does not hold; it does to "//trim(merge("second", "first ", of_energies))//" order"
+        if (.not. of_energies) call put_example(left, right, samples, shown, judgement%example)
+    end subroutine judge_order
 
     pure function is_of_quantity(residual, samples) result(yes)
         !! `tension = m g`: of a quantity that has a formula, and else of constants only.
@@ -169,7 +181,8 @@ contains
         if (agreement%yes .or. agreement%same_motion) then
             if (agreement%but_constant) judgement%remark = but_for_constant
             if (.not. agreement%yes) judgement%remark = "another L of the same motion"
-            if (agreement%yes) call judge_order(.false.)
+            if (agreement%yes) call judge_order(left, right, samples, .false., .true., .false., &
+                                                shown, explain, judgement)
             return
         end if
         do k = 0, 1
@@ -178,7 +191,8 @@ contains
             judgement%remark = "if the coordinates are counted from the equilibrium"
             if (.not. agreement%yes) judgement%remark = "another L of the same motion, "// &
                 judgement%remark
-            if (agreement%yes) call judge_order(.true.)
+            if (agreement%yes) call judge_order(left, right, samples, .false., .true., .true., &
+                                                shown, explain, judgement)
             return
         end do
         about_other = speaks_of_place(judgement%residual, samples)
@@ -218,18 +232,6 @@ contains
         end associate
         call judgement%say_why()
     contains
-        subroutine judge_order(counted_from_it)
-            !! It is right to second order; does it hold to the one that it writes?
-            logical, intent(in) :: counted_from_it
-            integer :: order
-
-            order = order_that_fails(left, right, samples, .false., .true., counted_from_it, shown)
-            if (order == 0) return
-            judgement%verdict = is_wrong
-            if (explain) judgement%remark = "terms of order "//to_text(order)//" are written, "// &
-                "to which it does not hold; it does to second order"
-        end subroutine judge_order
-
         subroutine compare(other, counted_from_it)
             !! Near one equilibrium.
             logical, intent(in) :: other, counted_from_it

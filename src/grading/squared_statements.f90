@@ -6,10 +6,9 @@ module lagrangia_squared_statements
     use lagrangia_frequency_squares, only: square
     use lagrangia_further_slips, only: explain_further
     use lagrangia_kinds, only: dp
-    use lagrangia_mode_choice, only: choose_modes
+    use lagrangia_mode_choice, only: choose_modes, explain_modes
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
-    use lagrangia_slip_search, only: explain_slip
     use lagrangia_term_search, only: library_t
     implicit none (type, external)
     private
@@ -64,17 +63,18 @@ contains
         found = .true.
     end subroutine compare_sizes
 
-    subroutine explain_squares(left, right, samples, library, explanation)
+    subroutine explain_squares(left, right, samples, library, explanation, mode)
         !! Of a wrong `omega = sqrt(...)`: which change makes its square right.
         type(expression_t), intent(in) :: left, right           !! both sides
         type(samples_t), intent(in) :: samples                  !! know the modes
         type(library_t), intent(in) :: library(:)               !! right terms
         type(explanation_t), intent(inout) :: explanation  !! changes if there is one
+        integer, intent(inout) :: mode                     !! of which it is right then
         type(expression_t) :: squares
         real(dp), allocatable :: values(:, :)
         type(explanation_t) :: of_squares
         logical :: known, yes
-        integer :: first
+        integer :: first, of_mode
 
         if (right%nodes(right%count)%kind /= kind_function) return  ! no root
         call subtract_squares(left, right, samples, squares, first)
@@ -82,12 +82,14 @@ contains
         values = samples%values
         call choose_modes(squares, samples, values, yes, known)
         if (.not. known) return
-        call explain_slip(squares, first, samples, values, library, of_squares)
+        call explain_modes(squares, first, samples, values, library, of_squares, of_mode)
         if (of_squares%is_empty()) call explain_further( &
             squares%pruned(squares%nodes(squares%count)%left), &
             squares%pruned(squares%nodes(squares%count)%right), samples, values, library, &
             of_squares)
-        if (.not. of_squares%is_empty()) explanation%text = "squared: "//of_squares%text
+        if (of_squares%is_empty()) return
+        explanation%text = "squared: "//of_squares%text
+        mode = of_mode
     end subroutine explain_squares
 
     pure subroutine subtract_squares(left, right, samples, squares, first)

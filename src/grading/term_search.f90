@@ -2,13 +2,16 @@ module lagrangia_term_search
     !! Which term of a wrong statement must be counted otherwise, or has a letter, a dot or a
     !! function too many or too few; which one is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: iso_fortran_env, only: int64
     use lagrangia_canonical_form, only: simplified
     use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(*)
     use lagrangia_formula_text, only: formula_text, typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
-    use lagrangia_number_class, only: all_finite, is_nonzero
-    use lagrangia_sample_names, only: draws, role_known, role_parameter, samples_t, states
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
+    use lagrangia_number_text, only: rounded
+    use lagrangia_sample_names, only: draws, role_known, role_parameter, role_velocity, samples_t, &
+                                      states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -20,6 +23,8 @@ module lagrangia_term_search
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
     real(dp), parameter :: pi = acos(-1.0_dp)
+    real(dp), parameter :: largest = 1e15_dp  !! of a fraction: beyond it all numbers are whole
+    real(dp), parameter :: small_velocity = 1e-4_dp  !! of which only the first order counts
     integer, parameter :: enough = 4        !! samples at which all is finite
 
     type :: library_t
@@ -98,6 +103,7 @@ contains
         integer, allocatable :: nodes(:)
         character(:), allocatable :: text
         integer :: i, k, m, pass
+        logical :: small
 
         remark = ""
         is_surplus = .false.
@@ -106,21 +112,20 @@ contains
         call evaluate_nodes(expression, values, results)
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
+        small = is_of_small_motion(samples, values)
         do k = 1, size(nodes)
             if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
-            associate (s => signs(k)*results(:, nodes(k)), r => results(:, expression%count))
-                needed = 1.0_dp - r/s  ! so many times makes the sum zero
-            end associate
+            call find_needed(results, nodes, signs, k, small, needed, is_surplus)
             text = part_text(expression, nodes(k), samples)
             if (count(ieee_is_finite(needed)) < enough) cycle
-            if (is_constant(needed)) then
-                is_surplus = abs(needed(1)) < equal
-                if (is_surplus) remark = text//" does not belong there"
-                if (is_surplus .and. is_alone(k)) remark = text//" is not 0"
+            if (is_surplus) then
+                remark = text//" does not belong there"
+                if (is_alone(k)) remark = text//" is not 0"
+            else if (is_constant(needed)) then
                 if (is_simple(needed(1))) remark = text//" must be counted "// &
                                                    number_text(needed(1))//" times"
-                if (remark /= "") return
             end if
+            if (remark /= "") return
             do pass = 1, 2  ! the statement's own letters first
                 do i = 1, size(samples%role)
                     if (samples%role(i) > role_parameter) cycle
@@ -206,17 +211,18 @@ contains
         integer, allocatable :: nodes(:)
         type(letter_t), allocatable :: letters(:)
         type(expression_t) :: product
-        logical :: found
+        logical :: found, is_surplus, small
         integer :: k
 
         remark = ""
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
         call prepare(expression, samples, values, library, results, letters)
+        small = is_of_small_motion(samples, values)
         do k = 1, size(nodes)
             if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
-            needed = 1.0_dp - signs(k)*results(:, expression%count)/results(:, nodes(k))
-            if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
+            call find_needed(results, nodes, signs, k, small, needed, is_surplus)
+            if (is_surplus .or. .not. is_steady(needed) .or. any(is_zero(needed))) cycle
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
             remark = part_text(expression, nodes(k), samples)//" lacks the factor '"// &
@@ -224,6 +230,41 @@ contains
             return
         end do
     end subroutine try_products
+
+    pure subroutine find_needed(results, nodes, signs, k, small, needed, is_surplus)
+        !! So many times one summand makes the sum zero. It is not needed at all where the others
+        !! cancel, however large it is beside them, or are of higher order in a small motion.
+        real(dp), intent(in) :: results(:, :)              !! (samples, nodes)
+        integer, intent(in) :: nodes(:)                    !! the summands
+        real(dp), intent(in) :: signs(:)                   !! theirs
+        integer, intent(in) :: k                           !! which one
+        logical, intent(in) :: small                       !! the samples are of a small motion
+        real(dp), allocatable, intent(out) :: needed(:)    !! at each sample
+        logical, intent(out) :: is_surplus                 !! the sum is zero without it
+        real(dp), dimension(size(results, 1)) :: others, sizes
+        integer :: j
+
+        others = 0.0_dp
+        sizes = 0.0_dp
+        do j = 1, size(nodes)
+            if (j == k) cycle
+            others = others + signs(j)*results(:, nodes(j))
+            sizes = sizes + abs(results(:, nodes(j)))
+        end do
+        needed = -signs(k)*others/results(:, nodes(k))
+        is_surplus = all(abs(needed) < equal) .and. (small .or. all(abs(others) <= equal*sizes))
+    end subroutine find_needed
+
+    pure function is_of_small_motion(samples, values) result(yes)
+        !! Does nothing but a small motion go on there?
+        type(samples_t), intent(in) :: samples        !! know the velocities
+        real(dp), intent(in) :: values(:, :)          !! (samples, symbols)
+        logical :: yes
+        integer :: k
+
+        yes = all(abs(values(:, pack([(k, k=1, size(samples%role))], &
+                                     samples%role == role_velocity))) < small_velocity)
+    end function is_of_small_motion
 
     pure function is_subject(expression, i, samples) result(yes)
         !! Is node `i` a name that the statement is about: an energy, a momentum, omega?
@@ -375,21 +416,24 @@ contains
         real(dp), intent(in) :: value
         integer :: denominator
 
+        denominator = 0
+        if (abs(value) > largest) return
         do denominator = 1, 12
-            if (abs(value*denominator - anint(value*denominator)) <= equal*denominator) return
+            if (abs(value*denominator - anint(value*denominator)) <= &
+                equal*denominator*min(1.0_dp, abs(value))) return
         end do
         denominator = 0
     end function denominator_of
 
     pure recursive function number_text(value) result(text)
-        !! A fraction of small numbers, perhaps with \(\pi\), or three decimals.
+        !! A fraction of small numbers, perhaps with \(\pi\), or three decimals or digits.
         real(dp), intent(in) :: value  !! finite
         character(:), allocatable :: text
         integer :: denominator
 
         denominator = denominator_of(value)
         if (denominator > 0) then
-            text = to_text(nint(value*denominator))
+            text = to_text(nint(value*denominator, int64))
             if (denominator > 1) text = text//"/"//to_text(denominator)
         else if (is_fraction(value/pi)) then
             text = number_text(value/pi)//" pi"
@@ -399,6 +443,7 @@ contains
             text = number_text(value/pi**2)//" pi^2"
         else
             text = to_text(anint(1000.0_dp*value)/1000.0_dp)
+            if (abs(value) < 0.1_dp) text = rounded(value, 3)
         end if
         if (index(text, "1 pi") == 1) text = text(3:)
     end function number_text

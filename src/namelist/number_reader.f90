@@ -166,13 +166,14 @@ contains
         call ieee_set_halting_mode([ieee_overflow, ieee_underflow], halts)
     end function value_of
 
-    pure subroutine misread(text, phrase, problem)
+    pure subroutine misread(text, phrase, problem, in_degrees)
         !! Says what a `phrase` at the start of `text` means and what to write, if it is a number in
         !! a spelling that is not read: factors (numbers, `pi`) with `*`, `/`, `^` or `**` between
         !! them, in degrees or radians, or with characters that only look plain.
         character(*), intent(in) :: text                      !! in UTF-8, of any length
         character(:), allocatable, intent(out) :: phrase      !! in plain characters
         character(:), allocatable, intent(out) :: problem     !! empty: a number, `3*0.5`, or none
+        logical, intent(out), optional :: in_degrees          !! that is the problem
         character(:), allocatable :: odd, plain
         logical :: degrees
         real(dp) :: value
@@ -181,6 +182,7 @@ contains
         problem = ""
         plain = plainly(text)
         call evaluate(plain, value, degrees, last)
+        if (present(in_degrees)) in_degrees = degrees .and. last > 0
         phrase = plain(:last)
         if (last == 0) return
         odd = ""
