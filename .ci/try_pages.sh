@@ -124,7 +124,7 @@ own() { # derivation, modes and description of each line of .ci/own_systems.txt,
         printf '&%s %s /\n' lagrangian "$(sed 's/^.* ;; \(.*\) ;; .*$/\1/' <<<"$line")" own "${line##* ;; }" >>"$work/own.nml"
         echo "$line"
         for words in derive modes describe "derive --latex"; do (cd "$work" && "$full" $words own.nml 2>&1) | sed -e "/^LAPACK: /d" -e "s/^/    /"; done
-    done <.ci/own_systems.txt | plain
+    done <.ci/own_systems.txt | sed -E 's/([0-9]\.[0-9]{9})[0-9]+/\1/g' | plain
 }
 
 systems=$("$program" list systems | awk '{ print $1 }')

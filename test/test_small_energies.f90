@@ -218,8 +218,9 @@ contains
                     "theta_ddot ~ -(m1 + m2) g/(m1 l) (theta - (1/5 + m2/m1) theta^3);"// &
                     "m2 l theta_ddot + m2 x_ddot ~ -m2 g theta", &
                     "3 terms of order 3 are written")
-        ! a power that is not whole is of no order: that of theta here is 3.5
-        call traced("pendulum", "r", "sin(theta) ~ theta + (theta^2)^1.75")
+        ! a power that is not whole is in no series
+        call traced("pendulum", "w", "sin(theta) ~ theta + (theta^2)^1.75", &
+                    "1 terms of order 7/2 are written")
         ! of momenta
         call traced("pendulum", "rw", "p_theta ~ m l^2 theta_dot;"// &
                     "p_theta ~ m l^2 theta_dot (1 + theta^2)", "2 terms of order 3 are written")

@@ -81,13 +81,16 @@ contains
     end subroutine stand_alone
 
     subroutine put_example(left, right, samples, values, text)
-        !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.
+        !! `left 1.23, right 4.56 at theta = 0.123, g = 2.4`, the first of those where they differ
+        !! most but for rounding.
         type(expression_t), intent(in) :: left, right      !! both sides
         type(samples_t), intent(in) :: samples             !! know the names
         real(dp), intent(in) :: values(:, :)               !! (states, symbols)
         character(:), allocatable, intent(out) :: text     !! one line
         real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
         character(:), allocatable :: before
+        real(dp), parameter :: rounding = 1e-9_dp
+        real(dp) :: most
         integer :: digits, i, worst
 
         allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
@@ -96,8 +99,9 @@ contains
         associate (a => of_left(:, left%count), b => of_right(:, right%count))
             allocate (difference(size(a)))
             difference = abs(a - b)/(abs(a) + abs(b))
-            worst = maxloc(difference, 1, ieee_is_finite(difference))
-            if (worst == 0) worst = 1
+            most = maxval(difference, ieee_is_finite(difference))
+            worst = max(1, findloc(difference >= (1.0_dp - rounding)*most .and. &
+                                   ieee_is_finite(difference), .true., 1))
             digits = telling_digits(a(worst), b(worst))
             text = "left "//brief(a(worst), digits)//", right "//brief(b(worst), digits)
         end associate

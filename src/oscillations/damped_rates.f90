@@ -33,16 +33,19 @@ contains
 
     pure subroutine damped_rates(system, modes, lambda, error)
         !! The exponents of \(e^{\lambda t}\), those with \(\mathrm{Im}\,\lambda\ge0\), the fastest
-        !! oscillation last: \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\)
-        !! the frequency. Slow ones are as right as fast ones; two that nearly meet, at critical
-        !! damping, are right to the root of epsilon.
+        !! oscillation last, of two alike but for rounding the one that grows first:
+        !! \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\) the frequency.
+        !! Slow ones are as right as fast ones; two that nearly meet, at critical damping, are right
+        !! to the root of epsilon.
         class(system_t), intent(in) :: system                 !! with its parameters
         type(modes_t), intent(in) :: modes                    !! without damping, solved
         complex(dp), allocatable, intent(out) :: lambda(:)    !! 1/s
         type(error_t), allocatable, intent(out) :: error      !! status 4: LAPACK
         real(dp), dimension(size(modes%at), size(modes%at)) :: turning, springs
         complex(dp), allocatable :: all_lambda(:)
+        real(dp), allocatable :: rank(:)
         logical, allocatable :: left(:)
+        real(dp), parameter :: rounding = 1e-9_dp
         integer :: j
 
         call damping_matrix(system, modes%at, turning)
@@ -54,7 +57,10 @@ contains
         allocate (left, source=aimag(all_lambda) >= 0.0_dp)
         allocate (lambda(0))
         do while (any(left))
-            j = minloc(aimag(all_lambda) + 1e-3_dp*abs(real(all_lambda)), 1, left)
+            rank = aimag(all_lambda) + 1e-3_dp*abs(real(all_lambda))
+            j = maxloc(real(all_lambda), 1, left .and. &
+                       rank <= (1.0_dp + rounding)*minval(rank, left))
+            if (j == 0) exit  ! what is left is no number
             lambda = [lambda, all_lambda(j)]
             left(j) = .false.
         end do
