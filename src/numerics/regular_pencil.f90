@@ -7,7 +7,7 @@ module lagrangia_regular_pencil
     use lagrangia_number_class, only: all_finite, is_zero
     implicit none (type, external)
     private
-    public :: equilibrate, leave_zeros_out
+    public :: equilibrate, leave_zeros_out, nullity
 
     real(dp), parameter :: rounding = 4.0_dp*epsilon(1.0_dp)  !! of an element
 
@@ -57,6 +57,21 @@ contains
             e = matmul(transpose(rows), e(:, rest))
         end do
     end subroutine leave_zeros_out
+
+    pure function nullity(matrix) result(dimension)
+        !! Of the null space, to the rounding of the elements.
+        real(dp), intent(in) :: matrix(:, :)  !! (m, n)
+        integer :: dimension                  !! n less the rank
+        real(dp) :: a(size(matrix, 1), size(matrix, 2))
+        real(dp), allocatable :: rows(:), columns(:), kernel(:, :)
+        logical, allocatable :: pivotal(:)
+
+        a = matrix
+        call equilibrate(a, rows, columns)
+        call put_scales(rows, columns, a)
+        call find_null(a, rounding*abs(a), kernel, pivotal)
+        dimension = count(.not. pivotal)
+    end function nullity
 
     pure subroutine find_null(matrix, noise, kernel, pivotal)
         !! By elimination with complete pivoting, which keeps the rounding of each element: what is
