@@ -23,6 +23,8 @@ contains
         call suite%addTest(TestMethod("free_chain_has_a_zero_mode", free_chain_has_a_zero_mode))
         call suite%addTest(TestMethod("negative_springs_are_unstable", &
                                       negative_springs_are_unstable))
+        call suite%addTest(TestMethod("a_free_motion_beside_an_unstable_one", &
+                                      a_free_motion_beside_an_unstable_one))
         call suite%addTest(TestMethod("slow_modes_beside_fast_ones_keep_their_digits", &
                                       slow_modes_beside_fast_ones_keep_their_digits))
         call suite%addTest(TestMethod("graded_matrices_keep_their_digits", &
@@ -113,6 +115,28 @@ contains
         call assertTrue(ieee_is_nan(modes%omega(1)), "no frequency")
         call assertEqual(3.0_dp, modes%omega(2), 1e-15_dp)
     end subroutine negative_springs_are_unstable
+
+    subroutine a_free_motion_beside_an_unstable_one()
+        !! A zero mode, though K is not definite and the masses couple all: with only rounding in
+        !! its shape where K has elements, \(u^\top Ku\) is small, and as large as its terms.
+        type(normal_modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp), parameter :: k(3, 3) = reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 43.8_dp, &
+                                                  62.63_dp, 0.0_dp, 62.63_dp, 0.0_dp], [3, 3])
+        real(dp), parameter :: along(3) = [1.0_dp, 2.0_dp, 3.0_dp]
+        real(dp) :: m(3, 3)
+        integer :: i
+
+        do i = 1, 40
+            m = 26.1_dp*spread(along, 1, 3)*spread(along, 2, 3) + &
+                diagonal([0.61_dp, 0.45_dp + 0.1_dp*i, 3.4_dp])
+            call normal_modes(k, m, modes, error)
+            call assertFalse(allocated(error), "no error: free and unstable")
+            if (anyExceptions()) return
+            call assertEqual([is_unstable, is_zero_mode, is_oscillation], modes%label)
+            call assertEqual(0.0_dp, modes%omega2(2))
+        end do
+    end subroutine a_free_motion_beside_an_unstable_one
 
     subroutine slow_modes_beside_fast_ones_keep_their_digits()
         !! A small frequency is no zero mode, however fast another is; what the elements of \(K\)

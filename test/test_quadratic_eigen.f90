@@ -24,6 +24,8 @@ contains
         call suite%addTest(TestMethod("drag_on_one_of_two", drag_on_one_of_two))
         call suite%addTest(TestMethod("nothing_holds_it", nothing_holds_it))
         call suite%addTest(TestMethod("drag_and_magnetic_field", drag_and_magnetic_field))
+        call suite%addTest(TestMethod("weak_drag_in_a_strong_field", weak_drag_in_a_strong_field))
+        call suite%addTest(TestMethod("zeros_are_zeros", zeros_are_zeros))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
@@ -203,6 +205,50 @@ contains
         call is_there(lambda, k/fast, "the drift")
         call is_there(lambda, conjg(k/fast), "the drift, conjugate")
     end subroutine drag_and_magnetic_field
+
+    subroutine weak_drag_in_a_strong_field()
+        !! \(m\ddot z + (d + iB)\dot z = 0\): it turns at B/m, and stays somewhere, with d/m alone.
+        real(dp), parameter :: unit(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: field(2, 2) = reshape([0.0_dp, 1.0_dp, -1.0_dp, 0.0_dp], [2, 2])
+        real(dp), parameter :: m = 3.7_dp, d = 2.3_dp, b = 8.48e6_dp
+        complex(dp), allocatable :: lambda(:)
+
+        call solve(m*unit, d*unit + b*field, 0.0_dp*unit, lambda)
+        call is_there(lambda, cmplx(-d/m, b/m, dp), "turns")
+        call is_there(lambda, cmplx(-d/m, -b/m, dp), "turns, conjugate")
+        call assertEqual(2, count(abs(lambda) <= 0.0_dp), message="stays")
+    end subroutine weak_drag_in_a_strong_field
+
+    subroutine zeros_are_zeros()
+        !! Springs, masses and drags that are no round numbers, and as many exponents 0 as
+        !! det(lambda^2 M + lambda D + K) has without rounding.
+        real(dp), parameter :: a(3) = [1.0_dp, -1.0_dp, 2.0_dp], c(3) = [0.0_dp, 2.0_dp, -1.0_dp]
+        complex(dp), allocatable :: lambda(:)
+        real(dp) :: m(3, 3), k(3, 3), turn(3, 3)
+        integer :: i, power
+
+        do power = -6, 6, 3
+            m = 0.0_dp
+            do i = 1, 3
+                m(i, i) = 0.1_dp*10.0_dp**(power*(i - 2))*i
+            end do
+            k = 0.7_dp*product_of(a, a)
+            call solve(m, 0.3_dp*product_of(c, c), k, lambda)
+            call assertEqual(3, count(abs(lambda) <= 0.0_dp), message="two that slide, one stops")
+            call solve(m, 0.3_dp*product_of(a, a), k, lambda)
+            call assertEqual(4, count(abs(lambda) <= 0.0_dp), message="two that slide")
+            turn = 0.3_dp*(product_of(a, c) - product_of(c, a))
+            call solve(m, turn, k, lambda)
+            call assertEqual(4, count(abs(lambda) <= 0.0_dp), message="two in a field")
+        end do
+    contains
+        pure function product_of(x, y) result(dyad)
+            real(dp), intent(in) :: x(3), y(3)
+            real(dp) :: dyad(3, 3)
+
+            dyad = spread(x, 2, 3)*spread(y, 1, 3)
+        end function product_of
+    end subroutine zeros_are_zeros
 
     subroutine no_inertia()
         !! A singular M is an error of LAPACK's, with nothing solved.

@@ -245,7 +245,7 @@ contains
         integer, intent(in) :: number
         type(group_t), intent(out) :: group
         type(random_t) :: random
-        class(system_t), allocatable :: system
+        class(system_t), allocatable, target :: system
         type(samples_t) :: samples, printed(built_in)
         type(error_t), allocatable :: error
         type(description_t) :: d
@@ -280,7 +280,7 @@ contains
         integer, intent(in) :: number
         type(group_t), intent(out) :: group
         type(random_t) :: random
-        class(system_t), allocatable :: system
+        class(system_t), allocatable, target :: system
         type(samples_t) :: samples, printed(built_in)
         type(error_t), allocatable :: error
         type(description_t) :: d

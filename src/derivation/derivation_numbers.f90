@@ -241,8 +241,10 @@ contains
             value = -equation_value(system, at_rest, line%i)
         case (line_multiplier)
             value = s%lambda(line%i)
+            large = multiplier_size(system, s, line%i)
         case (line_acceleration)
             value = s%a(line%i)
+            large = acceleration_size(system, s, line%i)
         case default
             known = .false.
         end select
@@ -336,6 +338,92 @@ contains
         l = system%lagrangian(hyperdual_t(re=s%t), q, v)
         value = l%d12
     end function mass_value
+
+    function acceleration_size(system, s, i) result(large)
+        !! The sizes of what is added up for an acceleration: of an M whose inertias nearly cancel
+        !! they are more than \(|\ddot q|\).
+        class(system_t), intent(in) :: system
+        type(motion_t), intent(in) :: s
+        integer, intent(in) :: i
+        real(dp) :: large
+        real(dp) :: mass(size(s%q), size(s%q)), sizes(size(s%q))
+        integer :: j, k
+
+        do j = 1, size(s%q)
+            do k = 1, size(s%q)
+                mass(j, k) = mass_value(system, s, j, k)
+            end do
+        end do
+        sizes = term_sizes(system, s)
+        large = size_of_solution(mass, sizes, i)
+    end function acceleration_size
+
+    function multiplier_size(system, s, i) result(large)
+        !! The same for a multiplier, beside large forces that nearly cancel along a constraint.
+        class(system_t), intent(in) :: system
+        type(motion_t), intent(in) :: s
+        integer, intent(in) :: i
+        real(dp) :: large
+        real(dp) :: rows(size(s%lambda), size(s%q)), square(size(s%lambda), size(s%lambda))
+        real(dp) :: sizes(size(s%q)), right(size(s%lambda))
+        integer :: j
+
+        call constraint_values(system, s, rows)
+        sizes = term_sizes(system, s)
+        do j = 1, size(right)
+            square(:, j) = matmul(rows, rows(j, :))
+            right(j) = sum(abs(rows(j, :))*sizes)
+        end do
+        large = size_of_solution(square, right, i)
+    end function multiplier_size
+
+    function size_of_solution(matrix, sizes, i) result(large)
+        !! Element i of \(|A^{-1}|\) times the sizes of the right side; 0 of a singular A.
+        real(dp), intent(in) :: matrix(:, :), sizes(:)
+        integer, intent(in) :: i
+        real(dp) :: large
+        real(dp), dimension(size(sizes)) :: unit, column
+        type(error_t), allocatable :: singular
+        integer :: j
+
+        large = 0.0_dp
+        do j = 1, size(sizes)
+            unit = 0.0_dp
+            unit(j) = 1.0_dp
+            call solve_linear(matrix, unit, column, singular)
+            if (.not. allocated(singular)) large = large + abs(column(i))*sizes(j)
+        end do
+    end function size_of_solution
+
+    function term_sizes(system, s) result(sizes)
+        !! Of the equations of motion, \(|M||\ddot q| + |\partial L/\partial q| + |Q| +
+        !! |A^\top\lambda|\) and the rates of the momenta without \(\ddot q\).
+        class(system_t), intent(in) :: system
+        type(motion_t), intent(in) :: s
+        real(dp), dimension(size(s%q)) :: sizes, forces, beside
+        real(dp) :: rows(size(s%lambda), size(s%q))
+        type(motion_t) :: still
+        integer :: j, k
+
+        still = s
+        still%a = 0.0_dp
+        call system%forces(s%t, s%q, s%v, forces)
+        beside = 0.0_dp
+        call add_generalised_forces(system, s%t, s%q, s%v, beside)
+        sizes = abs(forces) + abs(beside)
+        if (size(s%lambda) > 0) then
+            call constraint_values(system, s, rows)
+            do j = 1, size(s%q)
+                sizes(j) = sizes(j) + sum(abs(s%lambda*rows(:, j)))
+            end do
+        end if
+        do j = 1, size(s%q)
+            sizes(j) = sizes(j) + abs(momentum_rate(system, still, j))
+            do k = 1, size(s%q)
+                sizes(j) = sizes(j) + abs(mass_value(system, s, j, k)*s%a(k))
+            end do
+        end do
+    end function term_sizes
 
     subroutine constraint_values(system, s, rows, residuals)
         !! \(A\), and \(A\dot q + b\).

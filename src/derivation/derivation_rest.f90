@@ -93,7 +93,7 @@ contains
             c%known = .not. any(modes%turning > 0.0_dp)  ! else it is complex
             if (.not. c%known) return
             c%program = paired(derivation, values, modes%omega2, line)
-            c%noise = c%noise + root_noise(modes, line%i)
+            c%noise = c%noise + root_noise(modes, c%program)
         case default
             c%noise = huge(c%noise)
             c%formula = 0.0_dp
@@ -105,9 +105,10 @@ contains
                 else
                     call evaluate(line%right, values, value, noise)
                 end if
+                noise = 64.0_dp*noise*max(1.0_dp, terms_of_one(modes, k))
                 if (abs(value)*c%noise < abs(c%formula)*noise) cycle
                 c%formula = value
-                c%noise = 64.0_dp*noise
+                c%noise = noise
             end do
         end select
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
@@ -175,24 +176,50 @@ contains
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*noise/abs(factor)
     end subroutine compare_linear
 
-    pure function root_noise(modes, i) result(noise)
+    pure function root_noise(modes, omega2) result(noise)
         !! Of LAPACK's root: some epsilon of the largest; with \(G\), where the matrix is not
         !! symmetric, more by largest over distance where another root is near, and a root of that
-        !! where both are one.
+        !! where both are one. Where inertias nearly cancel, some epsilon of the terms of
+        !! \(\omega^2u^\dagger Mu\).
         type(modes_t), intent(in) :: modes
-        integer, intent(in) :: i  !! which root
+        real(dp), intent(in) :: omega2  !! which root
         real(dp) :: noise
         real(dp), parameter :: rounding = 256.0_dp*epsilon(1.0_dp)
         real(dp) :: largest, distance
-        integer :: j
+        integer :: i, j
 
+        i = minloc(abs(modes%omega2 - omega2), 1)
         largest = maxval(abs(modes%omega2))
-        noise = rounding*largest
+        noise = rounding*max(largest, abs(omega2)*terms_of_one(modes, i))
         if (all(is_zero(modes%gyroscopic)) .or. size(modes%omega2) == 1) return
-        distance = minval(abs(modes%omega2 - modes%omega2(i)), &
-                          [(j /= i, j=1, size(modes%omega2))])
+        distance = minval(abs(modes%omega2 - omega2), [(j /= i, j=1, size(modes%omega2))])
         noise = noise*largest/max(distance, sqrt(rounding)*largest)
     end function root_noise
+
+    pure function terms_of_one(modes, j) result(sizes)
+        !! The sum of the sizes of the terms of \(u^\dagger Mu = 1\): some 1 of well-conditioned M.
+        type(modes_t), intent(in) :: modes  !! solved
+        integer, intent(in) :: j            !! which
+        real(dp) :: sizes
+        real(dp) :: u(size(modes%at))
+        integer :: k
+
+        u = abs(modes%shapes(:, j))
+        if (allocated(modes%quadrature)) u = hypot(u, modes%quadrature(:, j))
+        sizes = 0.0_dp
+        do k = 1, size(u)
+            sizes = sizes + u(k)*dot_product(abs(modes%mass(:, k)), u)
+        end do
+    end function terms_of_one
+
+    pure function cancellation(modes) result(ratio)
+        !! The most of these of all modes.
+        type(modes_t), intent(in) :: modes  !! solved
+        real(dp) :: ratio
+        integer :: j
+
+        ratio = maxval([1.0_dp, (terms_of_one(modes, j), j=1, size(modes%omega2))])
+    end function cancellation
 
     function paired(derivation, values, omega2, line) result(value)
         !! That of LAPACK's which belongs to the line: the formulas' and LAPACK's which differ least
@@ -281,7 +308,7 @@ contains
             formula = value/first
             product_of = product_at(x)/one
             noise = noise/abs(first) + first_noise/abs(first)*abs(formula) &
-                    + 1024.0_dp*epsilon(x)*abs(product_of)
+                    + 1024.0_dp*epsilon(x)*abs(product_of)*cancellation(modes)
             if (abs(formula - product_of)*c%noise < abs(c%formula - c%program)*noise) cycle
             c%formula = formula
             c%program = product_of

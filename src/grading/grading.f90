@@ -53,7 +53,7 @@ contains
 
     subroutine grade(homework, system, result, error)
         !! Judge every statement of `homework` about `system`.
-        class(system_t), intent(in) :: system             !! configured
+        class(system_t), intent(in), target :: system     !! configured
         type(homework_t), intent(in) :: homework          !! as read
         type(grade_t), intent(out) :: result              !! a judgement of each statement
         type(error_t), allocatable, intent(out) :: error  !! the system has no states to try
@@ -140,7 +140,7 @@ contains
     subroutine take_conditions(homework, system, d, said, insisted, library, samples, result)
         !! Behind `i_roll = m r^2/2` the lines are about systems for which that is true.
         type(homework_t), intent(in) :: homework
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in), target :: system
         type(description_t), intent(in) :: d
         character(*), intent(in) :: said               !! all statements
         type(word_t), intent(in) :: insisted(:)

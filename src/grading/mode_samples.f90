@@ -12,7 +12,7 @@ module lagrangia_mode_samples
     use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     implicit none (type, external)
     private
-    public :: add_modes, put_places, stable_somewhere
+    public :: add_modes, put_other_modes, put_places, stable_somewhere
 
 contains
 
@@ -61,17 +61,7 @@ contains
             return
         end if
         call find_modes(system, start, .true., others, error)
-        if (allocated(error)) return
-        samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
-        if (allocated(others%stiffness)) then
-            samples%other_equilibrium(:, draw) = others%at
-            samples%other_stiffness(:, :, draw) = others%stiffness
-            samples%other_inertia(:, :, draw) = others%mass
-            call put_forces(others, samples%other_stiffness(:, :, draw), &
-                            samples%other_turning(:, :, draw), &
-                            samples%omega2(draw, n + 1:2*n))
-        end if
-        if (samples%decay > 0) call damp(others, samples%omega2(draw, n + 1:))
+        if (.not. allocated(error)) call put_other_modes(samples, system, draw, others)
     contains
         subroutine add_forces(modes, omega2)
             !! What is linear in the velocities; omega of a damped oscillation.
@@ -80,48 +70,15 @@ contains
             real(dp), dimension(n, n) :: beside, drag
             real(dp) :: free
 
-            call put_forces(modes, samples%stiffness(:, :, draw), samples%turning(:, :, draw), &
-                            omega2)
+            call put_forces(system, modes, samples%stiffness(:, :, draw), &
+                            samples%turning(:, :, draw), omega2)
             if (samples%decay == 0) return
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
-            call damp(modes, omega2)
+            call damp(system, modes, omega2)
             free = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)
             call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
         end subroutine add_forces
-
-        subroutine put_forces(modes, stiffness, turning, omega2)
-            !! Forces beside L: their slopes by the places belong to K, and change \(\omega^2\);
-            !! those by the velocities to G, which stays NaN where constraints bind.
-            type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: stiffness(:, :), turning(:, :), omega2(:)
-            real(dp), dimension(n, n) :: beside, drag, shapes
-            logical :: known
-
-            call stiffness_beside(system, modes%at, beside)
-            call damping_matrix(system, modes%at, drag)
-            if (allocated(modes%basis)) return
-            turning = modes%gyroscopic + drag
-            if (.not. any(is_nonzero(beside))) return
-            stiffness = modes%stiffness + beside
-            if (any(is_nonzero(turning))) then
-                omega2 = 0.0_dp
-            else
-                call unsymmetric_modes(stiffness, modes%mass, omega2, shapes, known)
-            end if
-        end subroutine put_forces
-
-        subroutine damp(modes, omega2)
-            !! \(\omega^2 = K/M - (C/2M)^2\).
-            type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: omega2(:)
-            real(dp), dimension(1, 1) :: beside, drag
-
-            call stiffness_beside(system, modes%at, beside)
-            call damping_matrix(system, modes%at, drag)
-            omega2 = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1) - &
-                     (drag(1, 1)/(2.0_dp*modes%mass(1, 1)))**2
-        end subroutine damp
 
         subroutine put_rates(gamma, free)
             !! \(\gamma\) and \(\omega_0\), if that is a number, for all states of this draw.
@@ -133,6 +90,63 @@ contains
             end associate
         end subroutine put_rates
     end subroutine add_modes
+
+    subroutine put_other_modes(samples, system, draw, others)
+        !! The oscillations about another equilibrium.
+        type(samples_t), intent(inout) :: samples  !! get them
+        class(system_t), intent(in) :: system      !! with the parameters of this draw
+        integer, intent(in) :: draw                !! its number
+        type(modes_t), intent(in) :: others        !! about that equilibrium, solved
+        integer :: n
+
+        n = system%ndof
+        samples%omega2(draw, n + 1:) = 0.0_dp
+        samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
+        if (allocated(others%stiffness)) then
+            samples%other_equilibrium(:, draw) = others%at
+            samples%other_stiffness(:, :, draw) = others%stiffness
+            samples%other_inertia(:, :, draw) = others%mass
+            call put_forces(system, others, samples%other_stiffness(:, :, draw), &
+                            samples%other_turning(:, :, draw), &
+                            samples%omega2(draw, n + 1:2*n))
+        end if
+        if (samples%decay > 0) call damp(system, others, samples%omega2(draw, n + 1:))
+    end subroutine put_other_modes
+
+    subroutine put_forces(system, modes, stiffness, turning, omega2)
+        !! Forces beside L: their slopes by the places belong to K, and change \(\omega^2\); those
+        !! by the velocities to G, which stays NaN where constraints bind.
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(inout) :: stiffness(:, :), turning(:, :), omega2(:)
+        real(dp), dimension(system%ndof, system%ndof) :: beside, drag, shapes
+        logical :: known
+
+        call stiffness_beside(system, modes%at, beside)
+        call damping_matrix(system, modes%at, drag)
+        if (allocated(modes%basis)) return
+        turning = modes%gyroscopic + drag
+        if (.not. any(is_nonzero(beside))) return
+        stiffness = modes%stiffness + beside
+        if (any(is_nonzero(turning))) then
+            omega2 = 0.0_dp
+        else
+            call unsymmetric_modes(stiffness, modes%mass, omega2, shapes, known)
+        end if
+    end subroutine put_forces
+
+    subroutine damp(system, modes, omega2)
+        !! \(\omega^2 = K/M - (C/2M)^2\).
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(inout) :: omega2(:)
+        real(dp), dimension(1, 1) :: beside, drag
+
+        call stiffness_beside(system, modes%at, beside)
+        call damping_matrix(system, modes%at, drag)
+        omega2 = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1) - &
+                 (drag(1, 1)/(2.0_dp*modes%mass(1, 1)))**2
+    end subroutine damp
 
     pure function stable_somewhere(samples) result(yes)
         !! Oscillates it for some of the parameters about the equilibrium at or near zero, or for

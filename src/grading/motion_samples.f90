@@ -57,7 +57,8 @@ contains
     subroutine new_samples(system, said, settings, samples, error, own_omega, conditions)
         !! Of `system`, about which `said` speaks: a parameter that it does not name and whose
         !! default is zero or a formula keeps that.
-        class(system_t), intent(in) :: system             !! configured
+        class(system_t), intent(in), target :: system
+        !! configured; the samples point to it
         character(*), intent(in) :: said                  !! all statements
         type(word_t), intent(in) :: settings(:)           !! `name=value`: these keep their values
         type(samples_t), intent(out) :: samples           !! names and values
@@ -72,6 +73,7 @@ contains
         logical :: damped, own
         integer :: draw, k, tries
 
+        samples%system => system
         call system%describe(d)
         call refuse_letters(d, error)
         if (allocated(error)) return

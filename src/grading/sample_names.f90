@@ -117,6 +117,8 @@ module lagrangia_sample_names
         !! of each coordinate, as a line has it; empty: none
         logical, allocatable :: exact_motion(:)  !! it is not that of small oscillations only
         type(random_t) :: random
+        class(system_t), pointer :: system => null()
+        !! of which the statements speak, as long as they are judged
     end type samples_t
 
     interface

@@ -1,17 +1,23 @@
 module lagrangia_stated_equilibria
     !! `theta_eq = pi`, and `theta = pi + u`: an equilibrium beside those that `modes` shows.
     use lagrangia_derivative, only: derivative
+    use lagrangia_description, only: description_t, name_length, sizes_of_places, &
+                                     value_names
     use lagrangia_eigen, only: normal_modes
+    use lagrangia_equilibrium, only: settle
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(+), whole
     use lagrangia_gyroscopic, only: gyroscopic_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_mode_samples, only: put_other_modes
     use lagrangia_motion_values, only: values_of
     use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
+    use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_substitution, only: substituted
+    use lagrangia_system, only: system_t
     use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
@@ -33,8 +39,7 @@ contains
         real(dp), allocatable :: values(:, :)
         integer :: coordinate, j
 
-        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol .and. &
-              samples%lagrangian%count > 0
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
         if (.not. yes) return
         coordinate = findloc(samples%place, left%nodes(1)%which, 1)
         yes = coordinate > 0 .and. .not. any([(right%depends_on(j), j=1, 1 + 3*samples%ndof)])
@@ -100,7 +105,7 @@ contains
         real(dp), allocatable :: values(:, :)
         integer :: row
 
-        found = samples%ndof == 1 .and. samples%lagrangian%count > 0
+        found = samples%ndof == 1
         if (.not. found) return
         call find_rest(1, [(pi, row=1, size(samples%values, 1))], samples, values, found)
         if (found) call keep(values, .true., samples)
@@ -118,7 +123,6 @@ contains
 
         found = .false.
         n = samples%ndof
-        if (samples%lagrangian%count == 0) return
         if (count([(meaning%depends_on(j), j=1, 1 + 3*n)]) /= 1) return
         do coordinate = 1, n
             if (.not. meaning%depends_on(1 + coordinate)) cycle
@@ -159,6 +163,10 @@ contains
         values(:, 2:n + 1) = values(:, samples%place)
         values(:, coordinate + 1) = there
         values(:, n + 2:3*n + 1) = 0.0_dp
+        if (samples%lagrangian%count == 0) then
+            call settle_without_formula(coordinate, samples, values, found)
+            return
+        end if
         call forces_at_rest(samples, force)
         others = pack([(j, j=1, n)], [(j, j=1, n)] /= coordinate)
         do j = 1, n
@@ -192,6 +200,59 @@ contains
             found = found .and. judged
         end do
     end subroutine find_rest
+
+    subroutine settle_without_formula(coordinate, samples, values, found)
+        !! The same of a system of which the page has no formula of L: by the derivatives of L that
+        !! it computes. A place from which Newton's method leads away is none.
+        integer, intent(in) :: coordinate          !! which is given
+        type(samples_t), intent(in) :: samples     !! know the system
+        real(dp), intent(inout) :: values(:, :)    !! at rest at the given place
+        logical, intent(out) :: found              !! there is an equilibrium
+        class(system_t), allocatable :: drawn
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: q(samples%ndof), given
+        integer :: draw, j, row
+
+        call samples%system%describe(d)
+        associate (size_of => sizes_of_places(d))
+            do draw = 1, draws
+                row = draw*states
+                q = values(row, 2:samples%ndof + 1)
+                given = q(coordinate)
+                found = all_finite(q)
+                if (.not. found) return
+                call configure_draw(samples, draw, drawn, error)
+                if (.not. allocated(error)) call settle(drawn, .false., q, error)
+                found = .not. allocated(error)
+                if (.not. found) return
+                found = abs(q(coordinate) - given) <= &
+                    max(1e-12_dp*size_of(coordinate), 4.0_dp*spacing(given))
+                if (.not. found) return
+                q(coordinate) = given
+                do j = 1, samples%ndof
+                    values(row - states + 1:row, 1 + j) = q(j)
+                end do
+            end do
+        end associate
+    end subroutine settle_without_formula
+
+    subroutine configure_draw(samples, draw, drawn, error)
+        !! The system with the parameters of one draw.
+        type(samples_t), intent(in) :: samples             !! know the system
+        integer, intent(in) :: draw                        !! its number
+        class(system_t), allocatable, intent(out) :: drawn
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), allocatable :: names(:)
+        type(description_t) :: d
+        integer :: i
+
+        call samples%system%describe(d)
+        allocate (names, source=value_names(d))
+        allocate (drawn, source=samples%system)
+        call drawn%configure([(samples%values(draw*states, samples%symbols%find(trim(names(i)))), &
+                               i=1, size(names))], error)
+    end subroutine configure_draw
 
     subroutine forces_at_rest(samples, force)
         !! \(\partial L/\partial q_j+Q_j\).
@@ -234,6 +295,10 @@ contains
         at = values(::states, :)
         if (all(abs(at(:, 2:n + 1) - transpose(samples%equilibrium)) <= &
                 1e-12_dp*(1.0_dp + abs(at(:, 2:n + 1))))) return
+        if (samples%lagrangian%count == 0) then
+            call keep_without_formula(at(:, 2:n + 1), samples)
+            return
+        end if
         call energy_formulas(samples, formulas)
         call forces_at_rest(samples, force)
         do i = 1, n
@@ -275,4 +340,20 @@ contains
         end function slope_of
     end subroutine keep
 
+    subroutine keep_without_formula(places, samples)
+        !! The same by the derivatives of L that the system computes.
+        real(dp), intent(in) :: places(:, :)        !! equilibria, (draws, ndof)
+        type(samples_t), intent(inout) :: samples   !! get it as the other equilibrium
+        class(system_t), allocatable :: drawn
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+        integer :: draw
+
+        do draw = 1, draws
+            call configure_draw(samples, draw, drawn, error)
+            if (allocated(error)) cycle
+            call find_modes(drawn, places(draw, :), .true., modes, error)
+            if (.not. allocated(error)) call put_other_modes(samples, drawn, draw, modes)
+        end do
+    end subroutine keep_without_formula
 end module lagrangia_stated_equilibria

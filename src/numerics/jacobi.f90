@@ -3,6 +3,7 @@ module lagrangia_jacobi
     !! matrices, of which LAPACK's `dsygv` loses what is below the rounding of the largest.
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero
+    use lagrangia_regular_pencil, only: nullity
     implicit none (type, external)
     private
     public :: refine_modes, zero_modes
@@ -112,14 +113,29 @@ contains
 
     pure function zero_modes(stiffness, modes) result(zero)
         !! Whether \(u^\top Ku\) of each mode is below the rounding of its own terms,
-        !! \(4n\epsilon\,|u|^\top|K||u|\).
+        !! \(4n\epsilon\,|u|^\top|K||u|\). Beside larger ones it may be what rounding leaves of u
+        !! where u has nothing: then as many are zero modes as K has null vectors.
         real(dp), intent(in) :: stiffness(:, :)   !! \(K\), (n, n)
         real(dp), intent(in) :: modes(:, :)       !! a column each, (n, n)
         logical :: zero(size(modes, 2))
         real(dp) :: ku(size(modes, 1), size(modes, 2)), all(size(modes, 1), size(modes, 2))
+        real(dp) :: form(size(modes, 2)), rounding
+        logical :: small(size(modes, 2))
+        integer :: j, left
 
         ku = matmul(stiffness, modes)
         all = matmul(abs(stiffness), abs(modes))
-        zero = abs(sum(modes*ku, 1)) <= 4*size(modes, 1)*epsilon(ku)*sum(abs(modes)*all, 1)
+        form = abs(sum(modes*ku, 1))
+        rounding = 4*size(modes, 1)*epsilon(rounding)
+        zero = form <= rounding*sum(abs(modes)*all, 1)
+        small = .not. zero .and. form <= rounding*maxval(form)
+        if (.not. any(small)) return
+        left = nullity(stiffness) - count(zero)
+        do while (left > 0 .and. any(small))
+            j = minloc(form, 1, small)
+            zero(j) = .true.
+            small(j) = .false.
+            left = left - 1
+        end do
     end function zero_modes
 end module lagrangia_jacobi

@@ -6,7 +6,9 @@ module lagrangia_quadratic_eigen
     use lagrangia_gyroscopic, only: fast_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_null_space, only: least_vector
     use lagrangia_number_class, only: is_nonzero, is_zero
+    use lagrangia_regular_pencil, only: equilibrate, leave_zeros_out
     implicit none (type, external)
     private
     public :: quadratic_eigenvalues
@@ -17,10 +19,10 @@ contains
         !! The \(\lambda\) of \((\lambda^2M + \lambda D + K)u = 0\), all 2n, with magnitudes that
         !! fall.
         !!
-        !! LAPACK's `dgeev` errs by \(\epsilon\) times the largest \(|\lambda|\). The first-order
-        !! form of \(M\ddot u = -D\dot u - Ku\) therefore gives the fast ones, and where K is not
-        !! singular that of \(1/\lambda\), \(Ku = -\dots\), the slow ones. A step of Newton's method
-        !! mends those between. Each is then the root of
+        !! Those that are 0 are counted by ranks and taken out of the first-order form. LAPACK's
+        !! `dgeev` errs by \(\epsilon\) times the largest \(|\lambda|\): that form therefore gives
+        !! the fast ones, and its inverse the slow ones. A step of Newton's method mends those
+        !! between. Each is then the root of
         !! \(\lambda^2\,u^\dagger Mu + \lambda\,u^\dagger Du + u^\dagger Ku = 0\) with its own
         !! vector, without the difference of two nearly equal numbers: of an oscillation
         !! \(\mathrm{Re}\,\lambda = -(c\,\omega + k_i)/(2m\omega + g)\), where \(m\), \(c + ig\) and
@@ -33,68 +35,102 @@ contains
         real(dp), intent(in) :: stiffness(:, :)             !! \(K\), (n, n)
         complex(dp), allocatable, intent(out) :: lambda(:)  !! (2n), 1/s
         type(error_t), allocatable, intent(out) :: error    !! status 4: LAPACK, a singular M
-        complex(dp), dimension(2*size(mass, 1)) :: all_fast, all_slow
-        complex(dp), dimension(size(mass, 1), 2*size(mass, 1)) :: shapes, slow_shapes
+        real(dp), allocatable :: e(:, :), a(:, :)
+        complex(dp), allocatable :: fast_ones(:), slow_ones(:)
+        complex(dp) :: shape_of(size(mass, 1))
         type(error_t), allocatable :: singular
         real(dp) :: noise
-        integer :: fast, j
+        integer :: fast, i, j, n
+        logical :: none
 
-        allocate (lambda(2*size(mass, 1)))
-        call first_order(mass, damping, stiffness, all_fast, shapes, error)
+        n = size(mass, 1)
+        allocate (lambda(2*n), source=(0.0_dp, 0.0_dp))
+        allocate (e(2*n, 2*n), a(2*n, 2*n), source=0.0_dp)
+        do i = 1, n
+            e(i, i) = 1.0_dp
+            a(i, n + i) = 1.0_dp
+        end do
+        e(n + 1:, n + 1:) = mass
+        a(n + 1:, :n) = -stiffness
+        a(n + 1:, n + 1:) = -damping
+        call leave_zeros_out(e, a, error)
+        if (.not. allocated(error)) call eigenvalues(e, a, fast_ones, error)
         if (allocated(error)) return
-        fast = size(lambda)
-        call first_order(stiffness, damping, mass, all_slow, slow_shapes, singular)
-        if (.not. allocated(singular)) then
-            if (all(abs(all_slow) > 0.0_dp)) then
-                all_slow = 1.0_dp/all_slow(size(lambda):1:-1)
-                fast = fast_modes(abs(all_fast))
-                all_fast(fast + 1:) = all_slow(fast + 1:)
-                shapes(:, fast + 1:) = slow_shapes(:, size(lambda) - fast:1:-1)
-            end if
+        fast = size(fast_ones)
+        call eigenvalues(a, e, slow_ones, singular)
+        if (.not. allocated(singular) .and. all(abs(slow_ones) > 0.0_dp)) then
+            slow_ones = 1.0_dp/slow_ones(fast:1:-1)
+            fast = fast_modes(abs(fast_ones))
+            fast_ones(fast + 1:) = slow_ones(fast + 1:)
         end if
-        do j = 1, size(lambda)
-            if (j <= fast) noise = 16*size(lambda)*epsilon(noise)*abs(all_fast(1))
-            if (j > fast) noise = 1e-6_dp*abs(all_fast(j))
-            call improve(all_fast(j), shapes(:, j), noise, mass, damping, stiffness)
-            lambda(j) = refined(all_fast(j), noise, shapes(:, j), mass, damping, stiffness)
+        do j = 1, size(fast_ones)
+            call find_shape(fast_ones(j), mass, damping, stiffness, shape_of, error)
+            if (allocated(error)) return
+            noise = 1e-6_dp*abs(fast_ones(j))
+            if (j <= fast) noise = noise + 16*size(lambda)*epsilon(noise)*abs(fast_ones(1))
+            call improve(fast_ones(j), shape_of, noise, mass, damping, stiffness)
+            lambda(j) = refined(fast_ones(j), noise, shape_of, mass, damping, stiffness)
+            none = is_rounding(lambda(j), abs(fast_ones(1)), shape_of, mass, damping, stiffness)
+            if (none) lambda(j) = 0.0_dp
         end do
     end subroutine quadratic_eigenvalues
 
-    pure subroutine first_order(leading, middle, last, values, vectors, error)
-        !! The \(\mu\) of \((\mu^2A + \mu B + C)u = 0\), with magnitudes that fall, and their u.
-        real(dp), intent(in) :: leading(:, :), middle(:, :), last(:, :)  !! A, B, C
-        complex(dp), intent(out) :: values(:), vectors(:, :)             !! (2n), (n, 2n)
+    pure subroutine eigenvalues(e, a, values, error)
+        !! The \(\mu\) of \(\mu Ex = Ax\), with magnitudes that fall.
+        real(dp), intent(in) :: e(:, :), a(:, :)
+        complex(dp), allocatable, intent(out) :: values(:)
         type(error_t), allocatable, intent(out) :: error
-        complex(dp) :: pairs(size(values)), z(size(values), size(values))
-        real(dp) :: a(size(values), size(values)), size_of(size(values)), noise
-        real(dp), dimension(size(leading, 1)) :: column
-        integer :: i, j, n
+        complex(dp) :: found(size(e, 1)), vectors(size(e, 1), size(e, 1))
+        real(dp) :: quotient(size(e, 1), size(e, 1)), size_of(size(e, 1)), noise
+        integer :: i, j
 
-        n = size(leading, 1)
-        values = 0.0_dp
-        vectors = 0.0_dp
-        a = 0.0_dp
-        do j = 1, n
-            a(j, n + j) = 1.0_dp
-            call solve_linear(leading, -last(:, j), column, error)
+        allocate (values(size(e, 1)))
+        if (size(values) == 0) return
+        do j = 1, size(values)
+            call solve_linear(e, a(:, j), quotient(:, j), error)
             if (allocated(error)) return
-            a(n + 1:, j) = column
-            call solve_linear(leading, -middle(:, j), column, error)
-            if (allocated(error)) return
-            a(n + 1:, n + j) = column
         end do
-        call eigenpairs(a, "damped modes", pairs, z, error)
+        call eigenpairs(quotient, "damped modes", found, vectors, error)
         if (allocated(error)) return
-        size_of = hypot(real(pairs), aimag(pairs))
-        noise = 16*n*epsilon(noise)*maxval(size_of)
-        do i = 1, 2*n
+        size_of = abs(found)
+        noise = 8*size(values)*epsilon(noise)*maxval(size_of)
+        do i = 1, size(values)
             j = maxloc(size_of, 1)
             size_of(j) = -1.0_dp
-            values(i) = pairs(j)
-            if (abs(aimag(pairs(j))) <= noise) values(i) = real(pairs(j))
-            vectors(:, i) = z(:n, j)
+            values(i) = found(j)
+            if (abs(aimag(found(j))) <= noise) values(i) = real(found(j))
         end do
-    end subroutine first_order
+    end subroutine eigenvalues
+
+    pure subroutine find_shape(lambda, mass, damping, stiffness, u, error)
+        !! The u that \(\lambda^2M + \lambda D + K\) shortens most, rows and columns of one size.
+        complex(dp), intent(in) :: lambda
+        real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
+        complex(dp), intent(out) :: u(:)
+        type(error_t), allocatable, intent(out) :: error
+        complex(dp) :: q(size(u), size(u))
+        real(dp) :: a(2*size(u), 2*size(u)), x(2*size(u))
+        real(dp), allocatable :: rows(:), columns(:)
+        integer :: i, n
+
+        n = size(u)
+        q = lambda**2*mass + lambda*damping + stiffness
+        call equilibrate(abs(q), rows, columns)
+        do i = 1, n
+            q(:, i) = rows*q(:, i)*columns(i)
+        end do
+        a(:n, :n) = real(q)
+        a(:n, n + 1:) = -aimag(q)
+        a(n + 1:, :n) = aimag(q)
+        a(n + 1:, n + 1:) = real(q)
+        if (is_zero(aimag(lambda))) then
+            x(n + 1:) = 0.0_dp
+            call least_vector(a(:n, :n), x(:n), error)
+        else
+            call least_vector(a, x, error)
+        end if
+        u = columns*cmplx(x(:n), x(n + 1:), dp)
+    end subroutine find_shape
 
     pure subroutine improve(lambda, u, noise, mass, damping, stiffness)
         !! A step of Newton's method for \(Q(\lambda)u = 0\), \(Q = \lambda^2M + \lambda D + K\),
@@ -122,12 +158,34 @@ contains
         call solve_linear(a, [real(r), aimag(r)], x, singular)
         if (allocated(singular)) return
         change = cmplx(x(:n), x(n + 1:), dp)
-        if (.not. abs(change(n)) <= noise + 1e-6_dp*abs(lambda)) return
+        if (.not. abs(change(n)) <= noise) return
         if (.not. norm2(abs(change(:n - 1))) <= 1e-3_dp*norm2(abs(u))) return
         u = u + change(:n - 1)
         if (is_zero(aimag(lambda))) change(n) = real(change(n))
         lambda = lambda + change(n)
     end subroutine improve
+
+    pure function is_rounding(lambda, largest, u, mass, damping, stiffness) result(yes)
+        !! Is it what rounding leaves of a multiple 0, \(|\lambda| \le
+        !! 16n\epsilon\,|\lambda|_\max\) and, with the left vector w,
+        !! \(|\lambda w^\dagger(\lambda M + D)u| \le 4n\epsilon\,|w|^\top|K||u|\)?
+        complex(dp), intent(in) :: lambda, u(:)
+        real(dp), intent(in) :: largest  !! \(|\lambda|_\max\)
+        real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
+        logical :: yes
+        complex(dp) :: w(size(u))
+        type(error_t), allocatable :: error
+        real(dp) :: rounding
+
+        rounding = 4*size(u)*epsilon(rounding)
+        yes = abs(lambda) <= 4.0_dp*rounding*largest
+        if (.not. yes) return
+        call find_shape(conjg(lambda), transpose(mass), transpose(damping), transpose(stiffness), &
+                        w, error)
+        if (allocated(error)) return
+        yes = abs(lambda*dot_product(w, matmul(lambda*mass + damping, u))) <= &
+              rounding*dot_product(abs(w), matmul(abs(stiffness), abs(u)))
+    end function is_rounding
 
     pure function refined(lambda, noise, u, mass, damping, stiffness) result(better)
         !! The root near `lambda` of the quadratic that its vector makes. A sum that is no more than
@@ -148,16 +206,12 @@ contains
             better = lambda
             roots(1) = c**2 - 4.0_dp*m*k
             if (roots(1) < 0.0_dp) return
-            if (max(abs(c), abs(k)) <= 0.0_dp) then  ! it moves freely: a double 0
-                better = 0.0_dp
-                return
-            end if
             roots = -0.5_dp*(c + sign(sqrt(roots(1)), c))
             roots(1) = roots(1)/m
             if (is_nonzero(roots(2))) roots(2) = k/roots(2)
             better = roots(minloc(abs(roots - real(lambda)), 1))
         end if
-        if (.not. abs(better - lambda) <= noise + 1e-6_dp*abs(lambda)) better = lambda
+        if (.not. abs(better - lambda) <= noise) better = lambda
     end function refined
 
     pure subroutine form_of(a, u, re, im)
@@ -171,7 +225,7 @@ contains
         do j = 1, size(u)
             do i = 1, size(u)
                 parts(1, i, j) = 0.5_dp*(a(i, j) + a(j, i))*real(conjg(u(i))*u(j))
-                parts(2, i, j) = -0.5_dp*(a(i, j) - a(j, i))*aimag(conjg(u(i))*u(j))
+                parts(2, i, j) = 0.5_dp*(a(i, j) - a(j, i))*aimag(conjg(u(i))*u(j))
             end do
         end do
         size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(abs(parts(2, :, :)))]
