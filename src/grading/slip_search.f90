@@ -356,6 +356,7 @@ contains
             text = ""
             do n = 1, 2*expression%count  ! the statement's own letters first
                 i = 1 + mod(n - 1, expression%count)
+                if (i == expression%count) cycle  ! a small factor of all makes any line small
                 associate (nodes => expression%nodes(:expression%count))
                     if (any(nodes%kind == kind_power .and. nodes%right == i)) cycle  ! exponents
                 end associate
