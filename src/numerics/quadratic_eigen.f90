@@ -189,7 +189,9 @@ contains
 
     pure function refined(lambda, noise, u, mass, damping, stiffness) result(better)
         !! The root near `lambda` of the quadratic that its vector makes. A sum that is no more than
-        !! its rounding is 0.
+        !! its rounding is 0. Where \(2m\omega + g\) is the smaller part of the derivative
+        !! \(2m\lambda + c + ig\), as it is 0 of what a turning force makes of a growth,
+        !! that quotient is worse than `lambda`.
         complex(dp), intent(in) :: lambda, u(:)
         real(dp), intent(in) :: noise  !! how far `lambda` may be off
         real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
@@ -201,6 +203,8 @@ contains
         call form_of(damping, u, c, g)
         call form_of(stiffness, u, k, k_i)
         if (is_nonzero(omega)) then
+            better = lambda
+            if (abs(2.0_dp*m*omega + g) < abs(2.0_dp*m*real(lambda) + c)) return
             better = cmplx(-(c*omega + k_i)/(2.0_dp*m*omega + g), omega, dp)
         else
             better = lambda
