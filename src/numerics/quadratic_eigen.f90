@@ -223,16 +223,17 @@ contains
         real(dp), intent(in) :: a(:, :)
         complex(dp), intent(in) :: u(:)
         real(dp), intent(out) :: re, im
-        real(dp) :: parts(2, size(u), size(u)), size_of(2)
+        real(dp) :: parts(3, size(u), size(u)), size_of(2)
         integer :: i, j
 
         do j = 1, size(u)
             do i = 1, size(u)
                 parts(1, i, j) = 0.5_dp*(a(i, j) + a(j, i))*real(conjg(u(i))*u(j))
                 parts(2, i, j) = 0.5_dp*(a(i, j) - a(j, i))*aimag(conjg(u(i))*u(j))
+                parts(3, i, j) = 0.5_dp*abs(a(i, j) - a(j, i))*abs(u(i))*abs(u(j))
             end do
         end do
-        size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(abs(parts(2, :, :)))]
+        size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(parts(3, :, :))]
         re = sum(parts(1, :, :))
         im = sum(parts(2, :, :))
         if (abs(re) <= size_of(1)) re = 0.0_dp
