@@ -263,7 +263,7 @@ contains
         half = 0.5_dp*cmplx(c, g, dp)
         root = sqrt(half**2 + k)
         call is_there(lambda, root - half, "it grows")
-        call is_there(lambda, -root - conjg(half), "it falls")
+        call is_there(lambda, -root - half, "it falls")
     end subroutine growth_that_is_turned
 
     subroutine no_inertia()
