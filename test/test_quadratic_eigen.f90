@@ -25,6 +25,7 @@ contains
         call suite%addTest(TestMethod("nothing_holds_it", nothing_holds_it))
         call suite%addTest(TestMethod("drag_and_magnetic_field", drag_and_magnetic_field))
         call suite%addTest(TestMethod("weak_drag_in_a_strong_field", weak_drag_in_a_strong_field))
+        call suite%addTest(TestMethod("growth_that_is_turned", growth_that_is_turned))
         call suite%addTest(TestMethod("zeros_are_zeros", zeros_are_zeros))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
@@ -249,6 +250,21 @@ contains
             dyad = spread(x, 2, 3)*spread(y, 1, 3)
         end function product_of
     end subroutine zeros_are_zeros
+
+    subroutine growth_that_is_turned()
+        !! On a hill a weak field turns what grows or falls: of \(z = x + iy\) is
+        !! \(\lambda^2 + (c + ig)\lambda - k = 0\), and \(2\omega + g\) all but vanishes.
+        complex(dp), allocatable :: lambda(:)
+        complex(dp) :: half, root
+        real(dp), parameter :: c = 1e-6_dp, g = -1.0_dp, k = 4000.0_dp
+        real(dp), parameter :: one(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+
+        call solve(one, reshape([c, g, -g, c], [2, 2]), -k*one, lambda)
+        half = 0.5_dp*cmplx(c, g, dp)
+        root = sqrt(half**2 + k)
+        call is_there(lambda, root - half, "it grows")
+        call is_there(lambda, -root - half, "it falls")
+    end subroutine growth_that_is_turned
 
     subroutine no_inertia()
         !! A singular M is an error of LAPACK's, with nothing solved.

@@ -28,6 +28,49 @@ contains
         end if
     end subroutine take_dots
 
+    pure recursive module subroutine take_group(source, at, last, behind, error)
+        !! Braces that stand alone: brackets where they hold more than a name. `{\dot\theta}_1` is
+        !! theta_1_dot.
+        type(source_t), intent(inout) :: source
+        integer, intent(in) :: at, last
+        integer, intent(out) :: behind
+        type(error_t), allocatable, intent(out) :: error
+        integer :: begun
+
+        behind = at
+        call put(source, "(", at)
+        begun = len(source%plain)
+        call take_argument(source, last, behind, .false., error)
+        if (allocated(error)) return
+        if (verify(trim(adjustl(source%plain(begun + 1:))), inside) > 0) then
+            call put(source, ")", at)
+            return
+        end if
+        source%plain(begun:begun) = " "
+        call take_index_of_group(source, begun, last, behind)
+    end subroutine take_group
+
+    pure subroutine take_index_of_group(source, begun, last, behind)
+        !! The `_1` of `{\theta}_1` and `{\dot\theta}_1`, before the dots; nothing where there is
+        !! none, or no name.
+        type(source_t), intent(inout) :: source
+        integer, intent(in) :: begun       !! before the name
+        integer, intent(in) :: last
+        integer, intent(inout) :: behind
+        character(:), allocatable :: name
+        integer :: dots
+
+        if (source%text(behind:min(behind, last)) /= "_") return
+        name = trim(source%plain(begun + 1:))
+        if (verify(adjustl(name), inside) > 0) return
+        dots = max(index(name, "_dot"), index(name, "_ddot"))
+        if (dots == 0) dots = len(name) + 1
+        source%plain = source%plain(:begun + dots - 1)
+        source%plain_columns = source%plain_columns(:begun + dots - 1)
+        call take_index(source, last, behind)
+        call put(source, name(dots:), behind - 1)
+    end subroutine take_index_of_group
+
     pure recursive module subroutine take_fraction(source, at, last, behind, error)
         !! `\frac{a}{b}`, and `\frac{\partial L}{\partial x}`, which is a derivative.
         type(source_t), intent(inout) :: source
@@ -140,6 +183,7 @@ contains
         else if (behind <= last .and. scan(source%text(behind:min(behind, last)), "\{") == 1) then
             call take_argument(source, last, behind, .false., error)
             if (allocated(error)) return
+            call take_index_of_group(source, begun, last, behind)
         end if
         rest = adjustl(source%plain(begun + 1:))
         call skip_blanks(source%text(:last), behind)

@@ -25,6 +25,7 @@ module lagrangia_latex_source
                                              "mathit", "operatorname", "mbox", "mathsf", &
                                              "mathcal", "mathscr", "textit"]
     character(*), parameter :: nothing(*) = [character(12) :: ",", ";", ":", "!", " ", "\", &
+        "(", ")", "[", "]", &
         "quad", "qquad", "left", "right", "big", "Big", "bigg", "Bigg", "bigl", "bigr", &
         "Bigl", "Bigr", &
         "displaystyle", "textstyle", "limits", "nonumber", "notag", "rm", "thinspace"]
@@ -50,6 +51,15 @@ module lagrangia_latex_source
             integer, intent(inout) :: behind
             type(error_t), allocatable, intent(out) :: error
         end subroutine take_dots
+
+        pure recursive module subroutine take_group(source, at, last, behind, error)
+            !! Braces that stand alone: brackets where they hold more than a name.
+            implicit none (type, external)
+            type(source_t), intent(inout) :: source
+            integer, intent(in) :: at, last
+            integer, intent(out) :: behind
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine take_group
 
         pure recursive module subroutine take_fraction(source, at, last, behind, error)
             !! `\frac{a}{b}`, and `\frac{\partial L}{\partial x}`, which is a derivative.
@@ -296,26 +306,6 @@ contains
         end if
         behind = next
     end subroutine take_argument
-
-    pure recursive subroutine take_group(source, at, last, behind, error)
-        !! Braces that stand alone: brackets where they hold more than a name.
-        type(source_t), intent(inout) :: source
-        integer, intent(in) :: at, last
-        integer, intent(out) :: behind
-        type(error_t), allocatable, intent(out) :: error
-        integer :: begun
-
-        behind = at
-        call put(source, "(", at)
-        begun = len(source%plain)
-        call take_argument(source, last, behind, .false., error)
-        if (allocated(error)) return
-        if (verify(trim(adjustl(source%plain(begun + 1:))), inside) == 0) then
-            source%plain(begun:begun) = " "
-        else
-            call put(source, ")", at)
-        end if
-    end subroutine take_group
 
     pure recursive subroutine take_exponent(source, at, last, behind, error)
         !! `^2` is one digit or a group.

@@ -82,6 +82,7 @@ contains
         if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
+        if (judgement%verdict == is_wrong) call try_stated(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) then
             call read_signs(partial%text, plain, nearly)
             if (statement%small .or. any(nearly)) call try_elsewhere(partial, samples, library, &
@@ -126,10 +127,33 @@ contains
         judgement = attempt
     end subroutine try_pairs
 
+    subroutine try_stated(statement, samples, library, judgement)
+        !! A line before may have said about which equilibrium small oscillations are, or omega.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know other equilibria
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: there
+        character(:), allocatable :: plain
+        logical, allocatable :: nearly(:)
+        logical :: found
+
+        if (judgement%residual%count == 0) return
+        call read_signs(statement%text, plain, nearly)
+        if (.not. (statement%small .or. any(nearly) .or. &
+                   judgement%residual%depends_on(samples%frequency) .or. &
+                   judgement%residual%depends_on(samples%frequency + 1))) return
+        there = samples
+        call put_stated(there, found)
+        if (.not. found) return
+        call judge_line(statement, there, library, .false., attempt)
+        if (attempt%verdict == is_right) judgement = attempt
+    end subroutine try_stated
+
     subroutine try_elsewhere(statement, samples, library, judgement)
-        !! A line before may have said where, and `small: theta_ddot = g/l (theta - pi)` says it;
-        !! of one without a place that would be right of the upper equilibrium it is said how to
-        !! say so.
+        !! `small: theta_ddot = g/l (theta - pi)` says where; of one without a place that would be
+        !! right of the upper equilibrium it is said how to say so.
         type(statement_t), intent(in) :: statement      !! wrong
         type(samples_t), intent(in) :: samples          !! know other equilibria
         type(library_t), intent(in) :: library(:)       !! right terms
@@ -139,15 +163,6 @@ contains
         logical :: found
 
         if (judgement%residual%count == 0) return
-        there = samples
-        call put_stated(there, found)
-        if (found) then
-            call judge_line(statement, there, library, .false., attempt)
-            if (attempt%verdict == is_right) then
-                judgement = attempt
-                return
-            end if
-        end if
         there = samples
         call put_root(judgement%residual, there, found)
         if (found) then

@@ -5,7 +5,7 @@ module lagrangia_mode_choice
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
-    use lagrangia_number_class, only: is_zero
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
     use lagrangia_term_search, only: library_t
@@ -41,7 +41,8 @@ contains
     end subroutine choose_modes
 
     subroutine explain_modes(expression, first, samples, values, library, explanation, mode)
-        !! The narrowest change that makes a statement right, for omega of any mode.
+        !! The narrowest change that makes a statement right, for omega of any mode; of one about
+        !! the other equilibrium where there is none about the first.
         type(expression_t), intent(in) :: expression         !! left side less right side, wrong
         integer, intent(in) :: first                         !! nodes before it are right
         type(samples_t), intent(in) :: samples               !! know the modes
@@ -66,19 +67,33 @@ contains
             explanation = other
             mode = k
         end do
+        do k = samples%ndof + 1, size(samples%omega2, 2)
+            if (.not. explanation%is_empty()) return
+            if (count(is_nonzero(samples%omega2(:, k))) < 2) cycle
+            there = values
+            call put_mode(samples, k, there)
+            call explain_slip(expression, first, samples, there, library, explanation)
+            if (.not. explanation%is_empty()) mode = k
+        end do
     end subroutine explain_modes
 
     pure subroutine put_mode(samples, mode, values)
-        !! Give omega the values of one mode about the first equilibrium.
+        !! Give omega the values of one mode; about the other equilibrium, its place as well, and no
+        !! number where there is none.
         type(samples_t), intent(in) :: samples     !! know the modes
-        integer, intent(in) :: mode                !! from 1, the slowest
+        integer, intent(in) :: mode
+        !! from 1, the slowest about the first equilibrium; above ndof, about the other one
         real(dp), intent(inout) :: values(:, :)    !! of the symbols
         integer :: row
 
+        if (mode > samples%ndof) call put_places(samples, samples%other_equilibrium, values)
         do row = 1, size(values, 1)
             associate (omega2 => samples%omega2(1 + (row - 1)/states, mode))
                 values(row, samples%frequency) = sqrt(omega2)
                 values(row, samples%frequency + 1) = omega2
+                if (mode > samples%ndof .and. is_zero(omega2)) &
+                    values(row, samples%frequency:samples%frequency + 1) = &
+                    ieee_value(omega2, ieee_quiet_nan)
             end associate
         end do
     end subroutine put_mode

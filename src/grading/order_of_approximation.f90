@@ -15,7 +15,7 @@ module lagrangia_order_of_approximation
     use lagrangia_written_out, only: energy_formulas, energy_places
     implicit none (type, external)
     private
-    public :: is_negligible, order_that_fails
+    public :: is_linear, is_negligible, order_that_fails
 
     real(dp), parameter :: no_polynomial = -1.0_dp
 
@@ -117,6 +117,19 @@ contains
         if (count(residual%nodes(nodes)%kind /= kind_number) /= 1) return
         yes = leading_order(residual, samples, .false., .false., shown) > 1.5_dp
     end function is_negligible
+
+    function is_linear(residual, samples, counted_from_it, shown) result(yes)
+        !! What is left of it is of first order, also where that is less than the bound of rounding
+        !! at a small amplitude: of \(\cos\arccos\) and the like that bound is far too large.
+        type(expression_t), intent(in) :: residual     !! left less right side
+        type(samples_t), intent(in) :: samples         !! roles of the symbols
+        logical, intent(in) :: counted_from_it         !! coordinates, from the equilibrium
+        real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
+        logical :: yes
+        real(dp), parameter :: off = 0.1_dp            !! of a whole order
+
+        yes = abs(leading_order(residual, samples, .false., counted_from_it, shown) - 1.0_dp) <= off
+    end function is_linear
 
     function leading_order(residual, samples, but_constant, counted_from_it, shown) result(order)
         !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\),

@@ -5,7 +5,7 @@ module lagrangia_small_judgement
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
     use lagrangia_number_class, only: is_zero
-    use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
+    use lagrangia_order_of_approximation, only: is_linear, is_negligible, order_that_fails
     use lagrangia_sample_names, only: role_acceleration, role_known, role_parameter, &
                                       role_time, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
@@ -104,6 +104,8 @@ contains
             call small_motion(judgement%residual, samples, other, counted_from_it, values, shown, &
                               judgement%remark)
             if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
+            if (right_one) right_one = .not. is_linear(judgement%residual, samples, &
+                                                       counted_from_it, shown)
         end subroutine compare
 
         subroutine find_rest(other, yes)

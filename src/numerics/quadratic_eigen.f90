@@ -189,7 +189,9 @@ contains
 
     pure function refined(lambda, noise, u, mass, damping, stiffness) result(better)
         !! The root near `lambda` of the quadratic that its vector makes. A sum that is no more than
-        !! its rounding is 0.
+        !! its rounding is 0. Where \(2m\omega + g\) is the smaller part of the derivative
+        !! \(2m\lambda + c + ig\), as it is 0 of what a turning force makes of a growth,
+        !! that quotient is worse than `lambda`.
         complex(dp), intent(in) :: lambda, u(:)
         real(dp), intent(in) :: noise  !! how far `lambda` may be off
         real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
@@ -201,6 +203,8 @@ contains
         call form_of(damping, u, c, g)
         call form_of(stiffness, u, k, k_i)
         if (is_nonzero(omega)) then
+            better = lambda
+            if (abs(2.0_dp*m*omega + g) < abs(2.0_dp*m*real(lambda) + c)) return
             better = cmplx(-(c*omega + k_i)/(2.0_dp*m*omega + g), omega, dp)
         else
             better = lambda
@@ -219,16 +223,17 @@ contains
         real(dp), intent(in) :: a(:, :)
         complex(dp), intent(in) :: u(:)
         real(dp), intent(out) :: re, im
-        real(dp) :: parts(2, size(u), size(u)), size_of(2)
+        real(dp) :: parts(3, size(u), size(u)), size_of(2)
         integer :: i, j
 
         do j = 1, size(u)
             do i = 1, size(u)
                 parts(1, i, j) = 0.5_dp*(a(i, j) + a(j, i))*real(conjg(u(i))*u(j))
                 parts(2, i, j) = 0.5_dp*(a(i, j) - a(j, i))*aimag(conjg(u(i))*u(j))
+                parts(3, i, j) = 0.5_dp*abs(a(i, j) - a(j, i))*abs(u(i))*abs(u(j))
             end do
         end do
-        size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(abs(parts(2, :, :)))]
+        size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(parts(3, :, :))]
         re = sum(parts(1, :, :))
         im = sum(parts(2, :, :))
         if (abs(re) <= size_of(1)) re = 0.0_dp
