@@ -195,7 +195,8 @@ contains
         moves = .false.
         used = 0
         call trial_state(1, t, q, v)
-        call find_local_states(self%expressions%constraints, [t, q, v, self%p], 1 + self%ndof, local)
+        call find_local_states(self%expressions%constraints, [t, q, v, self%p], 1 + self%ndof, &
+                               local)
         do k = 1, near_states + size(local, 2)
             if (is_spare(k, used)) cycle
             call trial_state(min(k, near_states), t, q, v)

@@ -1,7 +1,7 @@
 module lagrangia_written_dependence
     !! On what the formulas of an own system depend as formulas. A kick that lasts a moment and a
-    !! wall far away are 0 at every state that is tried, so that `find_structure` cannot see them. A jump
-    !! of sgn has no slope that would show it.
+    !! wall far away are 0 at every state that is tried, so that `find_structure` cannot see them. A
+    !! jump of sgn has no slope that would show it.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_derivative, only: derivative
     use lagrangia_expression, only: expression_t, f_sgn, kind_function, operator(*), operator(+), &
@@ -26,7 +26,7 @@ contains
         !! far below a speed of light; constraints that move; coordinates that are not cyclic.
         class(lagrangian_system_t), intent(inout) :: system  !! with its parameters, and with the
         !! structure that `find_structure` gave it; it is corrected
-        type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, and their symbols
+        type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
         integer :: i, j, n
