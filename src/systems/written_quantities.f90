@@ -59,7 +59,7 @@ contains
         !! A quantity is conserved if its rate is rounding at those states of `trial_state` at which
         !! it is a number, with velocities that keep the constraints: beside the terms that add up
         !! to it, or, where the terms of a force cancel, beside what rounding of the state makes of
-        !! it. Constraints hold near the origin at most, so that with them no state far away is tried.
+        !! it. Constraints hold near the origin at most, and no state far away is tried with them.
         !! What acts at no such state is looked for in the formulas.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
