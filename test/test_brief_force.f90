@@ -31,6 +31,7 @@ contains
         call suite%addTest(TestMethod("forces that no trial state meets are seen", &
                                       structure_of_forces))
         call suite%addTest(TestMethod("and so is what is in L", structure_of_lagrangians))
+        call suite%addTest(TestMethod("and in constraints", structure_of_constraints))
         call suite%addTest(TestMethod("adaptive methods do not step over a kick", runs_meet_a_kick))
         call suite%addTest(TestMethod("nor do sweeps", sweeps_meet_a_kick))
         call suite%addTest(TestMethod("how long the briefest force acts", briefest_force))
@@ -99,7 +100,27 @@ contains
         call own(t//"V = 'F x (t - t)'", system, [1.0_dp])
         call assertFalse(system%time_dependent, "what cancels is not there")
         call assertEqual(1, system%cyclic, "nor the coordinate with it")
+        call own(t//"V = 'F x sgn(t - 77)'", system, [1.0_dp])
+        call assertFalse(system%conserves_energy(), "a jump changes the energy, too")
+        call own(t//"V = 'F x sgn(t - 77)'", system, [0.0_dp])
+        call assertTrue(system%conserves_energy(), "a jump of 0 J is none")
     end subroutine structure_of_lagrangians
+
+    subroutine structure_of_constraints()
+        class(system_t), allocatable :: system
+        character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' "
+
+        call own(t//"constraint = 'y = F exp(-((t - 5.01)/0.01)^2)'", system, [1.0_dp])
+        if (anyExceptions()) return
+        call assertTrue(system%time_dependent, "what is lifted for a moment")
+        call assertFalse(system%conserves_energy(), "is worked on")
+        call assertEqual(1, system%cyclic, "and p_x is conserved")
+        call own(t//"constraint = 'y = F exp(-((x - 77)/0.1)^2)'", system, [1.0_dp])
+        call assertTrue(system%conserves_energy(), "a hill far away does no work")
+        call assertEqual(0, system%cyclic, "but p_x is not conserved")
+        call own(t//"constraint = 'y = F exp(-((x - 77)/0.1)^2)'", system, [0.0_dp])
+        call assertEqual(1, system%cyclic, "without a hill it is")
+    end subroutine structure_of_constraints
 
     subroutine runs_meet_a_kick()
         !! \(\dot x = \int F\,dt/m\), and x five seconds of it.
@@ -164,6 +185,10 @@ contains
         call assertEqual(0.25_dp*sqrt(acos(-1.0_dp)), time, 3e-3_dp, "half of it is there")
         call find_briefest_force(system, 1.0_dp, huge(1.0_dp), q, v, time, evaluations)
         call assertEqual(huge(1.0_dp), time, 0.0_dp, "without an end nothing can be looked at")
+        call own(t//"definitions = 'B = F exp(-((t - 31)/0.5)^2)' Q_x = '-B y_dot' "// &
+                 "Q_y = 'B x_dot'", system, [-2.0_dp])
+        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, 0.0_dp*v, time, evaluations)
+        call assertEqual(0.5_dp*sqrt(acos(-1.0_dp)), time, 1e-6_dp, "a magnetic field, from rest")
         call system%configure([0.0_dp], error)
         call find_briefest_force(system, 1.0_dp, 101.0_dp, q, v, time, evaluations)
         call assertEqual(huge(1.0_dp), time, 0.0_dp, "none")

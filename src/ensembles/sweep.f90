@@ -22,7 +22,7 @@ module lagrangia_sweep
     use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: join, quoted, to_text
     use lagrangia_variational, only: new_variational, variational_t
-    use lagrangia_velocity_of_energy, only: find_velocity
+    use lagrangia_velocity_of_energy, only: find_velocity, is_lost
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
@@ -223,6 +223,10 @@ contains
             else if (sweep%system%constraints > 0) then
                 call fail(error, "others follow from it by the constraints; make it an axis", &
                           key="energy_by")
+            else if (is_lost(sweep%system, scene%t0, scene%q, scene%v, sweep%energy_by)) then
+                call fail(error, "velocities as those of the start are lost in the rounding of "// &
+                          "its energy, "//to_text(sweep%energy)//" J; make "//trim(by)// &
+                          " an axis", key="energy_by")
             end if
         end associate
     end subroutine plan_energy

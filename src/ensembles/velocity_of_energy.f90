@@ -6,7 +6,7 @@ module lagrangia_velocity_of_energy
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: find_velocity
+    public :: find_velocity, is_lost
 
     integer, parameter :: most = 100                              !! steps, and halvings of one
     real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)     !! of the terms of an energy
@@ -77,4 +77,25 @@ contains
             end do
         end subroutine go
     end subroutine find_velocity
+
+    function is_lost(system, t, q, v, which) result(yes)
+        !! Is a velocity as large as those of this state lost in the rounding of its energy, so that
+        !! the energy does not tell it to a thousandth? Beside a rest energy it may be.
+        class(system_t), intent(in) :: system    !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)    !! time, s; coordinates, velocities
+        integer, intent(in) :: which             !! number of that velocity
+        logical :: yes
+        real(dp), parameter :: least = 1e3_dp    !! roundings
+        real(dp) :: changed(size(v)), changes(2), energy
+        integer :: i
+
+        energy = system%energy(t, q, v)
+        do i = 1, 2  ! of two velocities one has another energy
+            changed = v
+            changed(which) = v(which) + i*maxval(abs(v))
+            changes(i) = system%energy(t, q, changed) - energy
+        end do
+        yes = maxval(abs(v)) > 0.0_dp .and. all(abs(changes) <= least*epsilon(energy)* &
+                                        max(abs(energy), system%natural_size(0, t, q, v)))
+    end function is_lost
 end module lagrangia_velocity_of_energy

@@ -19,16 +19,17 @@ contains
         !! Where the accelerations of the state do not change with the time but for a while: how
         !! long the shortest such while lasts, \(\int|a(t)-a(t_0)|\,dt\,/\,\max|a(t)-a(t_0)|\).
         !! Of systems in formulas; where they always change, as under a periodic force, steps follow
-        !! them anyway.
+        !! them anyway. A force that grows from 0 with a coordinate or a velocity, as that of a
+        !! magnetic field, is not there at a start where these are 0: if nothing changes at the
+        !! start, it is looked for beside it.
         class(system_t), intent(in) :: system               !! with its parameters
         real(dp), intent(in) :: t0, t_end                   !! start and end of the motion, s
         real(dp), intent(in) :: q(system%ndof)              !! coordinates at the start
         real(dp), intent(in) :: v(system%ndof)              !! velocities at the start
         real(dp), intent(out) :: time                       !! s; huge: there is no such while
         integer(i8), intent(inout) :: evaluations           !! gets one for each time
-        real(dp), allocatable :: change(:)
-        real(dp) :: few(size(probes)), first(system%ndof), step, total
-        integer :: i, k
+        real(dp), parameter :: aside = 1e-3_dp              !! of 1, and of what there is
+        logical :: changes
 
         time = huge(time)
         select type (system)
@@ -38,18 +39,37 @@ contains
             return
         end select
         if (.not. system%time_dependent .or. t_end >= huge(t_end)) return
+        if (.not. (t_end - t0)/looks > spacing(max(abs(t0), abs(t_end)))) return
+        call look_from(system, t0, t_end, q, v, time, changes, evaluations)
+        if (.not. changes) call look_from(system, t0, t_end, q + aside*(1.0_dp + abs(q)), &
+            v + aside*(1.0_dp + abs(v)), time, changes, evaluations)
+    end subroutine find_briefest_force
+
+    pure subroutine look_from(system, t0, t_end, q, v, time, changes, evaluations)
+        !! The same from one state, whatever the system.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, t_end
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(inout) :: time              !! stays where there is no such while
+        logical, intent(out) :: changes              !! do the accelerations, ever?
+        integer(i8), intent(inout) :: evaluations
+        real(dp), allocatable :: change(:)
+        real(dp) :: few(size(probes)), first(system%ndof), step, total
+        integer :: i, k
+
         step = (t_end - t0)/looks
-        if (.not. step > spacing(max(abs(t0), abs(t_end)))) return
         call system%accelerations(t0, q, v, first)
         do i = 1, size(probes)
             few(i) = change_at(t0 + probes(i)*(t_end - t0))
         end do
         evaluations = evaluations + 1 + size(probes)
-        if (minval(few) > least*maxval(few)) return
+        changes = minval(few) > least*maxval(few)
+        if (changes) return
         allocate (change(looks))
         do i = 1, looks
             change(i) = change_at(t0 + i*step)
         end do
+        changes = maxval(change) > 0.0_dp
         evaluations = evaluations + looks
         change = merge(0.0_dp, change, change < least*maxval(change))
         i = 1
@@ -75,5 +95,5 @@ contains
             size_of = maxval(abs(a - first))
             if (.not. ieee_is_finite(size_of)) size_of = 0.0_dp
         end function change_at
-    end subroutine find_briefest_force
+    end subroutine look_from
 end module lagrangia_brief_force

@@ -49,7 +49,9 @@ contains
     subroutine by_other_method(scene, system, seen, events, allowed, state, known)
         !! Time, coordinates and velocities where the run ended, or where in truth the event is that
         !! ended it. Not known across impacts, or where that would take too long. Where terms of the
-        !! equations cancel, these are rounded otherwise as well; what then cannot be known is NaN.
+        !! equations cancel, these are rounded otherwise as well; what then cannot be known is NaN,
+        !! and so is an end without the energy that the motion conserves: a step of the potential
+        !! has been gone over.
         type(scene_t), intent(in) :: scene  !! what was run
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(final_state_t), intent(in) :: seen              !! of the run
@@ -76,7 +78,29 @@ contains
         else
             call go_other_way(scene, system, seen, events, allowed, 0.0_dp, state, known)
         end if
+        if (known .and. has_other_energy(scene, system, state)) &
+            state = ieee_value(state, ieee_quiet_nan)
     end subroutine by_other_method
+
+    pure function has_other_energy(scene, system, state) result(yes)
+        !! Of a system whose energy is conserved and whose terms are known: than at the start.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: state(:)
+        logical :: yes
+        real(dp), parameter :: bound = 1e-5_dp  !! far above the errors of the least tolerance
+        real(dp) :: change, of_terms
+
+        yes = .false.
+        if (.not. system%conserves_energy()) return
+        associate (n => system%ndof, t => state(1))
+            of_terms = max(system%natural_size(0, scene%t0, scene%q, scene%v), &
+                           system%natural_size(0, t, state(2:1 + n), state(2 + n:)))
+            change = system%energy(t, state(2:1 + n), state(2 + n:)) - &
+                     system%energy(scene%t0, scene%q, scene%v)
+        end associate
+        yes = of_terms > 0.0_dp .and. abs(change) > bound*of_terms
+    end function has_other_energy
 
     subroutine go_other_way(scene, system, seen, events, allowed, tolerance, state, known)
         !! From the start to that end. However smooth the motion, the steps are so short that a

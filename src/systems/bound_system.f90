@@ -204,6 +204,7 @@ contains
         type(hyperdual_t) :: rows(self%constraints, self%ndof), drift(self%constraints)
         type(hyperdual_t) :: qq(self%ndof)
         real(dp) :: a(self%constraints, self%ndof)
+        real(dp), parameter :: least = epsilon(1.0_dp)  !! of a coordinate; at 0 it has no size
 
         qq%re = q
         values = 0.0_dp
@@ -213,7 +214,7 @@ contains
         call self%constraint_values(t, q, values)
         a = abs(rows%re)
         where (self%holonomic)
-            sizes = matmul(a, abs(q)) + abs(drift%re*t)
+            sizes = matmul(a, abs(q) + least) + abs(drift%re*t)
         else where
             values = 0.0_dp
         end where

@@ -15,6 +15,7 @@ module lagrangia_constrained_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_lagrangian_system, only: is_spare, near_states, trial_state
+    use lagrangia_local_states, only: find_local_states
     use lagrangia_pfaffian, only: pfaffian_t
     use lagrangia_system, only: each_lane
     use lagrangia_text, only: to_text
@@ -176,12 +177,14 @@ contains
     pure subroutine classify(self)
         !! Whether the constraints are holonomic, that is, whether there are \(f(t, q) = c\) that
         !! say the same, is a matter of \(A\,dq + b\,dt\) (Frobenius), not of how they are written;
-        !! rheonomic are those that contain the time. Where no state of `trial_state` tells, it is
-        !! as they are written.
+        !! rheonomic are those that contain the time: at states of `trial_state`, and where one of
+        !! their functions acts that is constant elsewhere. Where no state tells, it is as they are
+        !! written.
         class(constrained_system_t), intent(inout) :: self
         type(links_t) :: links
         real(dp) :: t, q(self%ndof), v(self%ndof)
         type(hyperdual_t) :: a(self%constraints, 1 + self%ndof)
+        real(dp), allocatable :: local(:, :)
         integer :: k, used
         logical :: integrable, moves
 
@@ -191,9 +194,16 @@ contains
         integrable = .true.
         moves = .false.
         used = 0
-        do k = 1, near_states
+        call trial_state(1, t, q, v)
+        call find_local_states(self%expressions%constraints, [t, q, v, self%p], 1 + self%ndof, &
+                               local)
+        do k = 1, near_states + size(local, 2)
             if (is_spare(k, used)) cycle
-            call trial_state(k, t, q, v)
+            call trial_state(min(k, near_states), t, q, v)
+            if (k > near_states) then
+                t = local(1, k - near_states)
+                q = local(2:1 + self%ndof, k - near_states)
+            end if
             call self%keep_constraints(t, q, v)
             call links%forms(hyperdual([q, t]), a)
             if (.not. all(ieee_is_finite(a%re))) cycle

@@ -16,12 +16,15 @@ contains
         !! Of each exp its peak is looked for, where the argument has one, and of abs, atan, sgn and
         !! tanh the zero of the argument: by Newton's method, a peak at last in one symbol after the
         !! other, and from beside the last one, for functions may be factors of each other. The
-        !! states lie to both sides of such a place, by the width of what is found there.
+        !! states lie to both sides of such a place, by the width of what is found there and by half
+        !! of it: where a slope is largest it does not change, so that a constraint with a peak
+        !! accelerates nothing there.
         type(expression_t), intent(in) :: formulas(:)      !! which have the functions
         real(dp), intent(in) :: values(:)                  !! of all symbols, where it begins
         integer, intent(in) :: moved                       !! the first so many symbols may change
         real(dp), allocatable, intent(out) :: states(:, :) !! values of all symbols, (:, states)
         integer, parameter :: passes = 8
+        real(dp), parameter :: beside(2) = [-1.0_dp, 0.5_dp]  !! of the width
         type(formula_program_t) :: program
         type(expression_t), allocatable :: arguments(:)
         logical, allocatable :: peaked(:)
@@ -47,11 +50,11 @@ contains
             do i = 1, moved
                 call look_along(program, here, i, j, peaked(j), shift, width)
                 if (.not. width > 0.0_dp) cycle
-                do side = -1, 1, 2
+                do side = 1, size(beside)
                     allocate (more(size(values), size(states, 2) + 1))
                     more(:, :size(states, 2)) = states
                     more(:, size(more, 2)) = here
-                    more(i, size(more, 2)) = here(i) + side*width
+                    more(i, size(more, 2)) = here(i) + beside(side)*width
                     call move_alloc(more, states)
                 end do
             end do

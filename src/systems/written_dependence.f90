@@ -1,14 +1,17 @@
 module lagrangia_written_dependence
     !! On what the formulas of an own system depend as formulas. A kick that lasts a moment and a
-    !! wall far away are 0 at every state that is tried, so that `find_structure` cannot see them.
+    !! wall far away are 0 at every state that is tried, so that `find_structure` cannot see them. A
+    !! jump of sgn has no slope that would show it.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_derivative, only: derivative
-    use lagrangia_expression, only: expression_t, operator(*), operator(+), symbol, whole
+    use lagrangia_expression, only: expression_t, f_sgn, kind_function, operator(*), operator(+), &
+                                    symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_number_class, only: is_zero
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_written_constraints, only: constraint_drift, constraint_row
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_motion, only: written_motion_t
     implicit none (type, external)
@@ -20,10 +23,10 @@ contains
     pure subroutine find_dependence(system, expressions, motion)
         !! What no trial state has shown and the formulas say: forces beside L, and that they work;
         !! the time in L and in them; velocities in the equations of motion, which rounding hides
-        !! far below a speed of light; coordinates that are not cyclic.
+        !! far below a speed of light; constraints that move; coordinates that are not cyclic.
         class(lagrangian_system_t), intent(inout) :: system  !! with its parameters, and with the
         !! structure that `find_structure` gave it; it is corrected
-        type(written_expressions_t), intent(in) :: expressions  !! L, Q, and their symbols
+        type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
         integer :: i, j, n
@@ -59,6 +62,9 @@ contains
             if (.not. system%cyclic_coordinates(i)) cycle
             if (changes_with(1 + i)) system%cyclic_coordinates(i) = .false.
         end do
+        do i = 1, size(expressions%constraints)
+            call look_at_constraint(system, expressions%constraints(i), expressions%symbols)
+        end do
         system%cyclic = findloc(system%cyclic_coordinates, .true., 1)
     contains
         pure function has_velocities(expression) result(yes)
@@ -82,8 +88,56 @@ contains
             if (.not. yes) return
             slope = short(derivative(expressions%lagrangian, which), system%p, expressions%symbols)
             yes = .not. slope%is_zero()
+            if (yes) return
+            yes = jumps_with(short(expressions%lagrangian, system%p, expressions%symbols), which)
         end function changes_with
     end subroutine find_dependence
+
+    pure subroutine look_at_constraint(system, constraint, symbols)
+        !! It works where it has a part without velocities, and leaves a momentum alone where it
+        !! contains neither the velocity nor the coordinate.
+        class(lagrangian_system_t), intent(inout) :: system
+        type(expression_t), intent(in) :: constraint  !! of t, q, q_dot, parameters
+        type(symbols_t), intent(in) :: symbols        !! their names
+        type(expression_t) :: part
+        integer :: k, row
+
+        do row = 0, system%ndof
+            if (row == 0) then
+                part = constraint_drift(constraint, system%ndof, symbols)
+            else
+                part = constraint_row(constraint, row, system%ndof, symbols)
+            end if
+            part = short(part, system%p, symbols)
+            if (part%is_zero()) cycle
+            if (row == 0) system%constraints_work = .true.
+            if (row > 0) system%cyclic_coordinates(row) = .false.
+            system%time_dependent = system%time_dependent .or. part%depends_on(1)
+            do k = 1, system%ndof
+                if (part%depends_on(1 + k)) system%cyclic_coordinates(k) = .false.
+            end do
+        end do
+    end subroutine look_at_constraint
+
+    pure function jumps_with(expression, which) result(yes)
+        !! Is there a sgn of this symbol?
+        type(expression_t), intent(in) :: expression
+        integer, intent(in) :: which
+        logical :: yes
+        type(expression_t) :: argument
+        integer :: k
+
+        yes = .false.
+        do k = 1, expression%count
+            associate (node => expression%nodes(k))
+                if (node%kind /= kind_function) cycle
+                if (node%which /= f_sgn) cycle
+                argument = expression%pruned(node%left)
+            end associate
+            yes = argument%depends_on(which)
+            if (yes) return
+        end do
+    end function jumps_with
 
     pure function short(expression, p, symbols) result(e)
         !! The canonical form, with 0 for the parameters that are 0.

@@ -55,23 +55,23 @@ contains
         end do
     end subroutine read_quantities
 
-    pure subroutine find_conserved(system, program, lagrangian, forces, conserved)
+    pure subroutine find_conserved(system, program, lagrangian, others, conserved)
         !! A quantity is conserved if its rate is rounding at those states of `trial_state` at which
         !! it is a number, with velocities that keep the constraints: beside the terms that add up
         !! to it, or, where the terms of a force cancel, beside what rounding of the state makes of
-        !! it. Constraints hold near the origin at most. Without them what acts at no such state is
-        !! looked for in the formulas.
+        !! it. Constraints hold near the origin at most, and no state far away is tried with them.
+        !! What acts at no such state is looked for in the formulas.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
         type(expression_t), intent(in) :: lagrangian       !! L, of t, q, q_dot, parameters
-        type(expression_t), intent(in) :: forces(:)        !! beside L, of each coordinate
+        type(expression_t), intent(in) :: others(:)        !! forces beside L, and constraints
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
         real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
         real(dp), dimension(system%ndof) :: q, v, a
         real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
         real(dp), dimension(program%outputs) :: rate, terms, noise
         logical :: known(program%outputs)
-        type(expression_t) :: formulas(1 + size(forces))
+        type(expression_t) :: formulas(1 + size(others))
         real(dp), allocatable :: local(:, :)
         integer :: used(program%outputs)
         real(dp) :: t
@@ -81,15 +81,11 @@ contains
         if (size(conserved) == 0) return
         used = 0
         n = system%ndof
-        last = near_states
+        last = merge(near_states, last_state, system%constraints > 0)
         call trial_state(1, t, q, v)
-        allocate (local(0, 0))
-        if (system%constraints == 0) then
-            last = last_state
-            formulas(1) = lagrangian
-            formulas(2:) = forces
-            call find_local_states(formulas, [t, q, v, system%p], 1 + n, local)
-        end if
+        formulas(1) = lagrangian
+        formulas(2:) = others
+        call find_local_states(formulas, [t, q, v, system%p], 1 + n, local)
         do k = 1, last + size(local, 2)
             if (is_spare(k, minval(used))) cycle
             call trial_state(min(k, last), t, q, v)
