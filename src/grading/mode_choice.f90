@@ -91,9 +91,10 @@ contains
             associate (omega2 => samples%omega2(1 + (row - 1)/states, mode))
                 values(row, samples%frequency) = sqrt(omega2)
                 values(row, samples%frequency + 1) = omega2
-                if (mode > samples%ndof .and. is_zero(omega2)) &
+                if (mode > samples%ndof .and. is_zero(omega2)) then
                     values(row, samples%frequency:samples%frequency + 1) = &
-                    ieee_value(omega2, ieee_quiet_nan)
+                        ieee_value(omega2, ieee_quiet_nan)
+                end if
             end associate
         end do
     end subroutine put_mode

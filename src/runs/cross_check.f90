@@ -78,8 +78,9 @@ contains
         else
             call go_other_way(scene, system, seen, events, allowed, 0.0_dp, state, known)
         end if
-        if (known .and. has_other_energy(scene, system, state)) &
+        if (known .and. has_other_energy(scene, system, state)) then
             state = ieee_value(state, ieee_quiet_nan)
+        end if
     end subroutine by_other_method
 
     pure function has_other_energy(scene, system, state) result(yes)

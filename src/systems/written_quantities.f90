@@ -55,7 +55,7 @@ contains
         end do
     end subroutine read_quantities
 
-    pure subroutine find_conserved(system, program, lagrangian, others, conserved)
+    pure subroutine find_conserved(system, program, lagrangian, forces, constraints, conserved)
         !! A quantity is conserved if its rate is rounding at those states of `trial_state` at which
         !! it is a number, with velocities that keep the constraints: beside the terms that add up
         !! to it, or, where the terms of a force cancel, beside what rounding of the state makes of
@@ -64,14 +64,15 @@ contains
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
         type(expression_t), intent(in) :: lagrangian       !! L, of t, q, q_dot, parameters
-        type(expression_t), intent(in) :: others(:)        !! forces beside L, and constraints
+        type(expression_t), intent(in) :: forces(:)        !! Q of each coordinate
+        type(expression_t), intent(in) :: constraints(:)   !! zero along the motion
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
         real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
         real(dp), dimension(system%ndof) :: q, v, a
         real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
         real(dp), dimension(program%outputs) :: rate, terms, noise
         logical :: known(program%outputs)
-        type(expression_t) :: formulas(1 + size(others))
+        type(expression_t) :: formulas(1 + size(forces) + size(constraints))
         real(dp), allocatable :: local(:, :)
         integer :: used(program%outputs)
         real(dp) :: t
@@ -84,7 +85,8 @@ contains
         last = merge(near_states, last_state, system%constraints > 0)
         call trial_state(1, t, q, v)
         formulas(1) = lagrangian
-        formulas(2:) = others
+        formulas(2:1 + size(forces)) = forces
+        formulas(2 + size(forces):) = constraints
         call find_local_states(formulas, [t, q, v, system%p], 1 + n, local)
         do k = 1, last + size(local, 2)
             if (is_spare(k, minval(used))) cycle

@@ -199,10 +199,8 @@ contains
 
         call find_structure(self)
         call find_dependence(self, self%expressions, self%motion)
-        associate (e => self%expressions)
-            call find_conserved(self, self%programs(of_quantity), e%lagrangian, &
-                                [e%forces, e%constraints], self%is_conserved)
-        end associate
+        call find_conserved(self, self%programs(of_quantity), self%expressions%lagrangian, &
+            self%expressions%forces, self%expressions%constraints, self%is_conserved)
     end subroutine find_all_structure
 
     pure function lagrangian(self, t, q, v) result(l)
