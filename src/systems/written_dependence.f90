@@ -145,6 +145,7 @@ contains
         real(dp), intent(in) :: p(:)
         type(symbols_t), intent(in) :: symbols
         type(expression_t) :: e
+        type(expression_t), allocatable :: zeros(:)  ! gfortran 12 never frees a list of results
         integer, allocatable :: places(:)
         integer :: first, i
 
@@ -152,7 +153,11 @@ contains
         if (e%is_zero()) return
         first = size(symbols%names) - size(p)
         places = pack([(first + i, i=1, size(p))], is_zero(p))
-        if (size(places) > 0) e = substituted(e, places, [(whole(0), i=1, size(places))])
+        allocate (zeros(size(places)))
+        do i = 1, size(places)
+            zeros(i) = whole(0)
+        end do
+        if (size(places) > 0) e = substituted(e, places, zeros)
         e = simplified(e, symbols)
     end function short
 end module lagrangia_written_dependence
