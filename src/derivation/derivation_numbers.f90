@@ -19,6 +19,7 @@ module lagrangia_derivation_numbers
     use lagrangia_random_draws, only: random_t
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_term_sizes, only: size_of_solution
     implicit none (type, external)
     private
     public :: comparison_t
@@ -341,12 +342,13 @@ contains
 
     function acceleration_size(system, s, i) result(large)
         !! The sizes of what is added up for an acceleration: of an M whose inertias nearly cancel
-        !! they are more than \(|\ddot q|\).
+        !! they are more than \(|\ddot q|\). 0 of a singular M.
         class(system_t), intent(in) :: system
         type(motion_t), intent(in) :: s
         integer, intent(in) :: i
         real(dp) :: large
         real(dp) :: mass(size(s%q), size(s%q)), sizes(size(s%q))
+        type(error_t), allocatable :: singular
         integer :: j, k
 
         do j = 1, size(s%q)
@@ -354,8 +356,8 @@ contains
                 mass(j, k) = mass_value(system, s, j, k)
             end do
         end do
-        sizes = term_sizes(system, s)
-        large = size_of_solution(mass, sizes, i)
+        call size_of_solution(mass, term_sizes(system, s), sizes, singular)
+        large = sizes(i)
     end function acceleration_size
 
     function multiplier_size(system, s, i) result(large)
@@ -365,7 +367,8 @@ contains
         integer, intent(in) :: i
         real(dp) :: large
         real(dp) :: rows(size(s%lambda), size(s%q)), square(size(s%lambda), size(s%lambda))
-        real(dp) :: sizes(size(s%q)), right(size(s%lambda))
+        real(dp) :: sizes(size(s%q)), right(size(s%lambda)), of_multipliers(size(s%lambda))
+        type(error_t), allocatable :: singular
         integer :: j
 
         call constraint_values(system, s, rows)
@@ -374,26 +377,9 @@ contains
             square(:, j) = matmul(rows, rows(j, :))
             right(j) = sum(abs(rows(j, :))*sizes)
         end do
-        large = size_of_solution(square, right, i)
+        call size_of_solution(square, right, of_multipliers, singular)
+        large = of_multipliers(i)
     end function multiplier_size
-
-    function size_of_solution(matrix, sizes, i) result(large)
-        !! Element i of \(|A^{-1}|\) times the sizes of the right side; 0 of a singular A.
-        real(dp), intent(in) :: matrix(:, :), sizes(:)
-        integer, intent(in) :: i
-        real(dp) :: large
-        real(dp), dimension(size(sizes)) :: unit, column
-        type(error_t), allocatable :: singular
-        integer :: j
-
-        large = 0.0_dp
-        do j = 1, size(sizes)
-            unit = 0.0_dp
-            unit(j) = 1.0_dp
-            call solve_linear(matrix, unit, column, singular)
-            if (.not. allocated(singular)) large = large + abs(column(i))*sizes(j)
-        end do
-    end function size_of_solution
 
     function term_sizes(system, s) result(sizes)
         !! Of the equations of motion, \(|M||\ddot q| + |\partial L/\partial q| + |Q| +
