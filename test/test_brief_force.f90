@@ -2,10 +2,10 @@ module test_brief_force
     !! A force that acts for a moment, or far from where a motion begins, is neither overlooked by
     !! the structure of an own system nor gone over by long steps.
     use funit, only: anyExceptions, assertEqual, assertFalse, assertTrue, TestMethod, TestSuite
-    use lagrangia_brief_force, only: find_briefest_force, looks
+    use lagrangia_brief_force, only: brief_forces_t
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: outcome_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -34,8 +34,9 @@ contains
         call suite%addTest(TestMethod("and in constraints", structure_of_constraints))
         call suite%addTest(TestMethod("adaptive methods do not step over a kick", runs_meet_a_kick))
         call suite%addTest(TestMethod("nor do sweeps", sweeps_meet_a_kick))
-        call suite%addTest(TestMethod("how long the briefest force acts", briefest_force))
-        call suite%addTest(TestMethod("forces that always change cost nothing", always_changing))
+        call suite%addTest(TestMethod("steps beside kinks are long", kinks_cost_little))
+        call suite%addTest(TestMethod("where moments are", where_moments_are))
+        call suite%addTest(TestMethod("steady forces have none", steady_forces))
     end function brief_force_suite
 
     subroutine own(lines, system, values)
@@ -123,23 +124,72 @@ contains
     end subroutine structure_of_constraints
 
     subroutine runs_meet_a_kick()
-        !! \(\dot x = \int F\,dt/m\), and x five seconds of it.
+        !! \(\dot x = \int F\,dt/m\), and \(x = \int(10 - t)F\,dt/m\): of kicks about 5 s that
+        !! last a hundredth of a second or less, beside forces that always change.
         character(7), parameter :: methods(2) = [character(7) :: "gauss16", "dop853"]
-        type(outcome_t) :: outcome
-        type(error_t), allocatable :: error
+        real(dp), parameter :: pi = acos(-1.0_dp)
         integer :: i
 
         do i = 1, size(methods)
-            call perform("&scene system = 'kicked' method = '"//trim(methods(i))// &
-                         "' tolerance = 1e-10 duration = 10 samples = 10 q = 0.0 / "// &
-                         "&lagrangian coordinates = 'x' "//kick//" / &kicked F = 3.0 /", "", &
-                         "none", outcome, error)
-            if (anyExceptions()) return
-            call assertFalse(allocated(error), methods(i))
-            call assertEqual(impulse, outcome%v(1), 1e-8_dp, methods(i))
-            call assertEqual(5*impulse, outcome%q(1), 5e-8_dp, methods(i))
+            call meet(methods(i), "3 exp(-((t - 5)/0.02)^2)", impulse, 5*impulse)
+            call meet(methods(i), "t/1000 + 2 exp(-((t - 5)/0.0002)^2)", 0.05_dp + &
+                      0.0004_dp*sqrt(pi), 1/6.0_dp + 0.002_dp*sqrt(pi))
+            call meet(methods(i), "exp(-abs(t - 5)/0.001)", 0.002_dp, 0.01_dp)
+            call meet(methods(i), "exp(-((t - 5)/0.001)^4)", 0.002_dp*gamma(1.25_dp), &
+                      0.01_dp*gamma(1.25_dp))
+            call meet(methods(i), "2^(-((t - 5)/0.01)^2)", 0.01_dp*sqrt(pi/log(2.0_dp)), &
+                      0.05_dp*sqrt(pi/log(2.0_dp)))
+            call meet(methods(i), "2/cosh((t - 5)/0.001)^2", 0.004_dp, 0.02_dp)
+            call meet(methods(i), "1/(t^2 - 10 t + 25.000001)", 2000*atan(5000.0_dp), &
+                      10000*atan(5000.0_dp))
+            call meet(methods(i), "(1 + (1000 t - 5000)^4)^(-2)", 0.000375_dp*pi*sqrt(2.0_dp), &
+                      0.001875_dp*pi*sqrt(2.0_dp))
+            call meet(methods(i), "tanh((t - 5)/0.0001) - tanh((t - 5.001)/0.0001)", 0.002_dp, &
+                      0.009999_dp)
+            call meet(methods(i), "atan((t - 5)/0.0001) - atan((t - 5.001)/0.0001)", &
+                      5.0_dp*atan(5e4_dp) - 4.999_dp*atan(4.999e4_dp) - 5.0_dp*atan(5e4_dp) + &
+                      5.001_dp*atan(5.001e4_dp) + 5e-5_dp*log((1 + 4.999e4_dp**2)/ &
+                      (1 + 5.001e4_dp**2)), -1.0_dp)
+            call meet(methods(i), "sgn(t - 5) - sgn(t - 5.001)", 0.002_dp, 0.009999_dp)
+            call meet(methods(i), "cos(t) + abs(t - 5)", 25 + sin(10.0_dp), &
+                      126 - cos(10.0_dp))
         end do
     end subroutine runs_meet_a_kick
+
+    subroutine meet(method, force, speed, place)
+        !! Ten seconds from rest, by a force on a mass of 1 kg.
+        character(*), intent(in) :: method, force
+        real(dp), intent(in) :: speed, place  !! at the end; not positive: not known
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        if (anyExceptions()) return
+        call perform("&scene system = 'kicked' method = '"//trim(method)//"' tolerance = 1e-10 "// &
+                     "duration = 10 samples = 10 q = 0.0 / &lagrangian coordinates = 'x' "// &
+                     "T = 'x_dot^2/2' V = '0' Q_x = '"//force//"' /", "", "none", outcome, error)
+        call assertFalse(allocated(error), method//", "//force)
+        if (anyExceptions()) return
+        call assertEqual(speed, outcome%v(1), 2e-8_dp*max(1.0_dp, speed), method//", "//force)
+        if (place > 0.0_dp) call assertEqual(place, outcome%q(1), 1e-7_dp*max(1.0_dp, place), &
+                                             method//", x of "//force)
+        call assertTrue(outcome%evaluations < 3000, method//", cheap: "//force)
+    end subroutine meet
+
+    subroutine kinks_cost_little()
+        !! The steps beside them are as long as without: of 1 s they grow to 10 s in no time.
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        call perform("&scene system = 'kicked' method = 'dop853' tolerance = 1e-10 "// &
+                     "duration = 10 samples = 10 q = 0.0 / &lagrangian coordinates = 'x' "// &
+                     "T = 'x_dot^2/2' V = '0' "// &
+                     "Q_x = '(sgn(t - 2) - sgn(t - 3))/2' /", "", "none", outcome, error)
+        call assertFalse(allocated(error), "a pulse")
+        if (anyExceptions()) return
+        call assertEqual(1.0_dp, outcome%v(1), 1e-13_dp, "its end is its own")
+        call assertEqual(7.5_dp, outcome%q(1), 1e-12_dp, "and 7.5 s behind its middle")
+        call assertTrue(outcome%steps < 20, "steps")
+    end subroutine kinks_cost_little
 
     subroutine sweeps_meet_a_kick()
         type(sweep_t) :: sweep
@@ -157,60 +207,68 @@ contains
         call assertEqual(impulse, numbers%values(1, 31), 1e-8_dp, "with the whole")
     end subroutine sweeps_meet_a_kick
 
-    subroutine briefest_force()
-        !! \(\sqrt\pi\,w\) of \(e^{-((t - t_1)/w)^2}\), but for what is below 1e-6 of the peak; of
-        !! two, the shorter.
+    subroutine where_moments_are()
+        !! No step goes over a moment, and within one none is longer than \(4\sigma\).
         class(system_t), allocatable :: system
-        real(dp), parameter :: q(2) = [0.3_dp, 0.0_dp], v(2) = [0.0_dp, 0.1_dp]
         character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' V = '0' "
-        real(dp) :: time
-        type(error_t), allocatable :: error
-        integer(i8) :: evaluations
+        type(brief_forces_t) :: brief
+        real(dp), parameter :: never = huge(1.0_dp), sigma = 0.1_dp/sqrt(2.0_dp)
+        real(dp) :: h
+        integer :: i
 
-        evaluations = 7
-        call own(t//"Q_y = 'F exp(-((t - 31)/0.5)^2)'", system, [-2.0_dp])
+        call assertEqual(never, brief%longest_step(1.0_dp), 0.0_dp, "none at first")
+        call own(t//"Q_y = 'F exp(-((t - 31)/0.1)^2)' Q_x = 'F exp(-((t - 60)/0.05)^2)'", system, &
+                 [-2.0_dp])
         if (anyExceptions()) return
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, v, time, evaluations)
-        call assertEqual(0.5_dp*sqrt(acos(-1.0_dp)), time, 1e-6_dp, "one")
-        call assertEqual(7 + 4 + looks, int(evaluations), "evaluations are counted")
-        call own(t//"Q_y = 'F exp(-((t - 31)/0.5)^2)' Q_x = 'F exp(-((t - 60)/0.25)^2)'", system, &
-                 [-2.0_dp])
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, v, time, evaluations)
-        call assertEqual(0.25_dp*sqrt(acos(-1.0_dp)), time, 1e-6_dp, "the later one is shorter")
-        call own(t//"Q_x = 'F exp(-((t - 31)/0.25)^2)' Q_y = 'F exp(-((t - 101)/0.5)^2)'", system, &
-                 [-2.0_dp])
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, v, time, evaluations)
-        call assertEqual(0.25_dp*sqrt(acos(-1.0_dp)), time, 1e-3_dp, "one that the end cuts")
-        call find_briefest_force(system, 41.0_dp, 101.0_dp, q, v, time, evaluations)
-        call assertEqual(0.25_dp*sqrt(acos(-1.0_dp)), time, 3e-3_dp, "half of it is there")
-        call find_briefest_force(system, 1.0_dp, huge(1.0_dp), q, v, time, evaluations)
-        call assertEqual(huge(1.0_dp), time, 0.0_dp, "without an end nothing can be looked at")
-        call own(t//"definitions = 'B = F exp(-((t - 31)/0.5)^2)' Q_x = '-B y_dot' "// &
-                 "Q_y = 'B x_dot'", system, [-2.0_dp])
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, 0.0_dp*v, time, evaluations)
-        call assertEqual(0.5_dp*sqrt(acos(-1.0_dp)), time, 1e-6_dp, "a magnetic field, from rest")
-        call system%configure([0.0_dp], error)
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, q, v, time, evaluations)
-        call assertEqual(huge(1.0_dp), time, 0.0_dp, "none")
-    end subroutine briefest_force
+        call brief%find(system, 1.0_dp, 101.0_dp)
+        h = brief%longest_step(1.0_dp)
+        call assertTrue(31 - 32*sigma <= 1 + h .and. 1 + h <= 31 - 16*sigma, "ends before it")
+        h = brief%longest_step(1.0_dp + h)
+        call assertTrue(2*sigma <= h .and. h <= 4*sigma, "then is short")
+        call assertEqual(h, brief%longest_step(31.0_dp), 0.0_dp, "as in the middle")
+        h = brief%longest_step(31 + 32*sigma)
+        call assertTrue(60 - 16*sigma <= 31 + 32*sigma + h, "ends before the next")
+        h = brief%longest_step(60.0_dp)
+        call assertTrue(sigma <= h .and. h <= 2*sigma, "which is half as long")
+        call assertEqual(never, brief%longest_step(60 + 16*sigma), 0.0_dp, "nothing is behind it")
+        call brief%find(system, 31.1_dp, 59.99_dp)
+        call assertTrue(brief%longest_step(31.2_dp) > 20, "its end is no moment")
+        call assertTrue(brief%longest_step(59.9_dp) <= 2*sigma, "one just behind the end is")
+        call brief%find(system, 1.0_dp, never)
+        call assertEqual(never, brief%longest_step(1.0_dp), 0.0_dp, "without an end none")
+        call own(t//"Q_y = 'F sgn(t - 31)'", system, [-2.0_dp])
+        call brief%find(system, 1.0_dp, 101.0_dp)
+        h = brief%longest_step(1.0_dp)
+        call assertEqual(30.0_dp, h, 1e-12_dp, "to a jump")
+        call assertTrue(1 + h < 31.0_dp, "not to its middle")
+        i = nint(brief%longest_step(1 + h)/spacing(101.0_dp))
+        call assertEqual(32, i, "and over it")
+        call assertEqual(never, brief%longest_step(31 + 16*spacing(101.0_dp)), 0.0_dp, "behind it")
+        call own(t//"Q_y = 'F abs(sin(10 t)) + exp(-x)/(1 + y^2) + cos(t)'", system, [-2.0_dp])
+        call brief%find(system, 0.1_dp, 10.0_dp)
+        call assertEqual(acos(-1.0_dp)/10 - 0.1_dp, brief%longest_step(0.1_dp), 1e-13_dp, "turns")
+        call brief%find(system, 0.1_dp, 100.0_dp)
+        call assertEqual(never, brief%longest_step(0.1_dp), 0.0_dp, "kinks without number")
+        call own(t//"Q_y = 'F abs(sin(10 t)) exp(-(sin(10 t)/0.1)^2)'", system, [-2.0_dp])
+        call brief%find(system, 0.1_dp, 100.0_dp)
+        h = brief%longest_step(0.1_dp)
+        call assertTrue(2*sigma/10 <= h .and. h <= 4*sigma/10, "kicks without number")
+    end subroutine where_moments_are
 
-    subroutine always_changing()
-        !! They are known after one look; forces that do not contain the time, after none.
+    subroutine steady_forces()
+        !! Neither what always changes nor what the time is not in has moments.
         class(system_t), allocatable :: system
-        real(dp) :: time
-        integer(i8) :: evaluations
         character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' V = '0' "
+        type(brief_forces_t) :: brief
+        character(40), parameter :: forces(6) = [character(40) :: "F cos(t)", "-F y", &
+            "F exp(-(x - 5)^2 t)", "t^2/(1 + y_dot^2)", "F t^3 + x^(-2)", "F exp(-t/10)"]
+        integer :: i
 
-        evaluations = 0
-        call own(t//"Q_y = 'F cos(t)'", system, [2.0_dp])
-        if (anyExceptions()) return
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, [0.3_dp, 0.0_dp], [0.0_dp, 0.0_dp], &
-                                 time, evaluations)
-        call assertEqual(4, int(evaluations), "three other times show it")
-        call assertEqual(huge(1.0_dp), time, 0.0_dp, "it always acts")
-        call own(t//"Q_y = '-F y'", system, [2.0_dp])
-        call find_briefest_force(system, 1.0_dp, 101.0_dp, [0.3_dp, 0.0_dp], [0.0_dp, 0.0_dp], &
-                                 time, evaluations)
-        call assertEqual(4, int(evaluations), "no time in it")
-    end subroutine always_changing
+        do i = 1, size(forces)
+            call own(t//"Q_y = '"//trim(forces(i))//"'", system, [2.0_dp])
+            if (anyExceptions()) return
+            call brief%find(system, -1.0_dp, 101.0_dp)
+            call assertEqual(huge(1.0_dp), brief%longest_step(1.0_dp), 0.0_dp, forces(i))
+        end do
+    end subroutine steady_forces
 end module test_brief_force

@@ -6,7 +6,7 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force, only: find_briefest_force
+    use lagrangia_brief_force, only: brief_forces_t
     use lagrangia_dop853_control, only: first_step, least_error, next_steps
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
@@ -29,7 +29,7 @@ module lagrangia_dop853_lanes
         real(dp) :: tolerance = 1e-10_dp
         real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
-        real(dp) :: briefest(lanes) = 0.0_dp         !! no step is longer, s
+        type(brief_forces_t) :: brief(lanes)         !! what no step goes over
         integer(i8) :: steps(lanes) = 0              !! of each trajectory
         real(dp) :: last_error(lanes) = least_error  !! of accepted steps, see `next_steps`
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
@@ -86,9 +86,7 @@ contains
         integer, intent(in) :: lane
         type(scene_t), intent(in) :: scene
         real(dp) :: y(2*system%ndof), f(2*system%ndof)
-        integer(i8) :: evaluations
 
-        evaluations = 0
         y(:system%ndof) = scene%q
         y(system%ndof + 1:) = scene%v
         self%tolerance = scene%tolerance
@@ -96,8 +94,7 @@ contains
         call slope(system, system%ndof, scene%t0, y, f)
         call first_step(system, system%ndof, self%tolerance, scene%t0, self%t_end(lane), y, f, &
                         self%h(lane))
-        call find_briefest_force(system, scene%t0, self%t_end(lane), scene%q, scene%v, &
-                                 self%briefest(lane), evaluations)
+        call self%brief(lane)%find(system, scene%t0, self%t_end(lane))
         self%y(lane, :) = y
         self%k(lane, :, 1) = f
         self%t(lane) = scene%t0
@@ -114,7 +111,7 @@ contains
         class(dop853_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), dimension(lanes) :: h, next, scaled, t_new
-        logical :: last(lanes)
+        logical :: cut(lanes), last(lanes)
         integer :: i, n
 
         n = system%ndof
@@ -122,7 +119,11 @@ contains
             self%k(:, i, 1) = merge(self%k(:, i, 13), self%k(:, i, 1), self%moved)
         end do
         self%busy = self%busy .and. self%t < self%t_end
-        h = min(self%h, self%briefest)
+        do i = 1, lanes
+            h(i) = self%brief(i)%longest_step(self%t(i))
+        end do
+        cut = h < self%h
+        h = min(h, self%h)
         last = self%t + 1.01_dp*h >= self%t_end
         h = merge(self%t_end - self%t, h, last)
         h = (self%t + h) - self%t  ! what the clock will say
@@ -142,7 +143,7 @@ contains
         end do
         call next_steps(h, scaled, self%last_error, next)
         next = merge(min(next, self%h), next, self%moved .and. self%retry)
-        next = merge(max(next, self%h), next, self%moved .and. last)  ! for `go_on`
+        next = merge(max(next, self%h), next, self%moved .and. (cut .or. last))  ! for `go_on`
         self%h = merge(next, self%h, self%busy)
         self%retry = self%busy .and. .not. self%moved
         self%inside_known = self%inside_known .and. .not. self%moved

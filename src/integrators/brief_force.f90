@@ -1,99 +1,165 @@
 module lagrangia_brief_force
-    !! A force that acts for a moment, which long steps would go over without a sign: an error
-    !! estimate sees only what a stage has met.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_kinds, only: dp, i8
+    !! A force that acts for a moment, or turns at once, which long steps would go over without a
+    !! sign: an error estimate sees only what a stage has met. Where functions of the time in an
+    !! own system's formulas do so is known before the first step.
+    use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_system, only: system_t
+    use lagrangia_time_functions, only: kink, peak, time_functions_t
     implicit none (type, external)
     private
-    public :: find_briefest_force, looks
+    public :: brief_forces_t
 
-    integer, parameter :: looks = 20000  !! times at which a force is looked for
-    real(dp), parameter :: least = 1e-6_dp  !! part of the largest change that counts
-    real(dp), parameter :: probes(3) = [0.618_dp, 0.2367_dp, 0.8541_dp]  !! of the way
+    integer, parameter :: looks = 2000  !! times at which arguments of functions are looked at
+    integer, parameter :: most = 200    !! moments that are told apart
+    real(dp), parameter :: reach = 16.0_dp  !! widths to both sides: \(1/\cosh 16 = 2\cdot 10^{-7}\)
+    real(dp), parameter :: step = 2.0_dp    !! widths that a step may be long
+
+    type :: brief_forces_t
+        !! Moments, in no order; none at first.
+        private
+        integer :: moments = 0                      !! of more than `most` only the shortest counts
+        real(dp), dimension(most) :: from = 0.0_dp, to = 0.0_dp, width = 0.0_dp  !! s
+        real(dp) :: least = huge(1.0_dp)            !! width but of kinks, s
+    contains
+        procedure :: find
+        procedure :: longest_step
+    end type brief_forces_t
 
 contains
 
-    pure subroutine find_briefest_force(system, t0, t_end, q, v, time, evaluations)
-        !! Where the accelerations of the state do not change with the time but for a while: how
-        !! long the shortest such while lasts, \(\int|a(t)-a(t_0)|\,dt\,/\,\max|a(t)-a(t_0)|\).
-        !! Of systems in formulas; where they always change, as under a periodic force, steps follow
-        !! them anyway. A force that grows from 0 with a coordinate or a velocity, as that of a
-        !! magnetic field, is not there at a start where these are 0: if nothing changes at the
-        !! start, it is looked for beside it.
-        class(system_t), intent(in) :: system               !! with its parameters
-        real(dp), intent(in) :: t0, t_end                   !! start and end of the motion, s
-        real(dp), intent(in) :: q(system%ndof)              !! coordinates at the start
-        real(dp), intent(in) :: v(system%ndof)              !! velocities at the start
-        real(dp), intent(out) :: time                       !! s; huge: there is no such while
-        integer(i8), intent(inout) :: evaluations           !! gets one for each time
-        real(dp), parameter :: aside = 1e-3_dp              !! of 1, and of what there is
-        logical :: changes
+    pure subroutine find(self, system, t0, t_end)
+        !! The moments of a motion: of each function about the zeros of its argument, or the maxima,
+        !! as far as they are apart by more than a part in `looks` of the motion.
+        class(brief_forces_t), intent(inout) :: self  !! is made anew
+        class(system_t), intent(in) :: system         !! with its parameters
+        real(dp), intent(in) :: t0, t_end             !! start and end of the motion, s
 
-        time = huge(time)
+        self%moments = 0
+        self%least = huge(1.0_dp)
         select type (system)
         class is (lagrangian_system_t)
-            if (.not. system%told_by_formulas) return
-        class default
-            return
+            if (.not. allocated(system%time_functions%kinds)) return
+            if (size(system%time_functions%kinds) == 0 .or. t_end >= huge(t_end)) return
+            if (.not. (t_end - t0)/looks > spacing(max(abs(t0), abs(t_end)))) return
+            call look_along(self, system%time_functions, size(system%time_functions%kinds), t0, &
+                            t_end)
         end select
-        if (.not. system%time_dependent .or. t_end >= huge(t_end)) return
-        if (.not. (t_end - t0)/looks > spacing(max(abs(t0), abs(t_end)))) return
-        call look_from(system, t0, t_end, q, v, time, changes, evaluations)
-        if (.not. changes) call look_from(system, t0, t_end, q + aside*(1.0_dp + abs(q)), &
-            v + aside*(1.0_dp + abs(v)), time, changes, evaluations)
-    end subroutine find_briefest_force
+    end subroutine find
 
-    pure subroutine look_from(system, t0, t_end, q, v, time, changes, evaluations)
-        !! The same from one state, whatever the system.
-        class(system_t), intent(in) :: system
+    pure subroutine look_along(self, functions, n, t0, t_end)
+        !! From one look before the start to one behind the end: what is 0 there is no sign.
+        type(brief_forces_t), intent(inout) :: self
+        type(time_functions_t), intent(in) :: functions
+        integer, intent(in) :: n
         real(dp), intent(in) :: t0, t_end
-        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
-        real(dp), intent(inout) :: time              !! stays where there is no such while
-        logical, intent(out) :: changes              !! do the accelerations, ever?
-        integer(i8), intent(inout) :: evaluations
-        real(dp), allocatable :: change(:)
-        real(dp) :: few(size(probes)), first(system%ndof), step, total
+        real(dp), dimension(n) :: now, before
+        real(dp) :: t, t_before
         integer :: i, k
 
-        step = (t_end - t0)/looks
-        call system%accelerations(t0, q, v, first)
-        do i = 1, size(probes)
-            few(i) = change_at(t0 + probes(i)*(t_end - t0))
-        end do
-        evaluations = evaluations + 1 + size(probes)
-        changes = minval(few) > least*maxval(few)
-        if (changes) return
-        allocate (change(looks))
-        do i = 1, looks
-            change(i) = change_at(t0 + i*step)
-        end do
-        changes = maxval(change) > 0.0_dp
-        evaluations = evaluations + looks
-        change = merge(0.0_dp, change, change < least*maxval(change))
-        i = 1
-        do while (i <= looks)
-            k = i
-            total = 0.0_dp
-            do while (change(k) > 0.0_dp)
-                total = total + change(k)
-                k = k + 1
-                if (k > looks) exit
+        t_before = t0
+        before = 0.0_dp
+        do i = -1, looks + 1
+            t = t0 + i*((t_end - t0)/looks)
+            call signs_at(functions, t, now)
+            do k = 1, n
+                if (before(k) > 0.0_dp .and. now(k) <= 0.0_dp .or. &
+                    before(k) < 0.0_dp .and. now(k) >= 0.0_dp .and. &
+                    functions%kinds(k) /= peak) then
+                    call add_moment(self, functions, n, k, t_before, t, before(k), &
+                                    spacing(max(abs(t0), abs(t_end))))
+                end if
             end do
-            if (k > i) time = min(time, step*(total/maxval(change(i:k - 1))))
-            i = k + 1
+            before = now
+            t_before = t
         end do
-    contains
-        pure function change_at(t) result(size_of)
-            !! 0 where it is no number, too.
-            real(dp), intent(in) :: t
-            real(dp) :: size_of
-            real(dp) :: a(system%ndof)
+    end subroutine look_along
 
-            call system%accelerations(t, q, v, a)
-            size_of = maxval(abs(a - first))
-            if (.not. ieee_is_finite(size_of)) size_of = 0.0_dp
-        end function change_at
-    end subroutine look_from
+    pure subroutine signs_at(functions, t, signs)
+        !! What changes its sign at a moment: the argument, or at a peak its slope.
+        type(time_functions_t), intent(in) :: functions
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: signs(:)
+        real(dp), dimension(size(signs)) :: values, slopes
+
+        call functions%arguments_at(t, values, slopes)
+        signs = merge(slopes, values, functions%kinds == peak)
+    end subroutine signs_at
+
+    pure subroutine add_moment(self, functions, n, k, t_before, t_behind, before, ulp)
+        !! That of function `k` between two times, by bisection. A kink is gone over by one step,
+        !! which is too short to count, so that the others begin and end beside it.
+        type(brief_forces_t), intent(inout) :: self
+        type(time_functions_t), intent(in) :: functions
+        integer, intent(in) :: n, k
+        real(dp), intent(in) :: t_before, t_behind  !! s
+        real(dp), intent(in) :: before              !! what changes its sign, at the former
+        real(dp), intent(in) :: ulp                 !! of the times, s
+        real(dp), dimension(n) :: middle
+        real(dp) :: a, b, t, width
+        integer :: i
+
+        a = t_before
+        b = t_behind
+        do i = 1, digits(a)
+            t = a + 0.5_dp*(b - a)
+            call signs_at(functions, t, middle)
+            if (middle(k)*before > 0.0_dp) then
+                a = t
+            else
+                b = t
+            end if
+        end do
+        width = ulp
+        if (functions%kinds(k) /= kink) then
+            width = width_of(functions, n, k, b, looks*(t_behind - t_before), ulp)
+            self%least = min(self%least, width)
+        end if
+        self%moments = self%moments + 1
+        if (self%moments > most) return
+        self%from(self%moments) = b - reach*width
+        self%to(self%moments) = b + reach*width
+        self%width(self%moments) = merge(reach*width, width, functions%kinds(k) == kink)
+    end subroutine add_moment
+
+    pure function width_of(functions, n, k, t, far, near) result(width)
+        !! Of function `k` about a moment: the first \(2^j\) times `near` at which, to one side, the
+        !! argument of a switch has changed by 1, or that of a peak by 1/2; if not beyond `far`.
+        type(time_functions_t), intent(in) :: functions
+        integer, intent(in) :: n, k
+        real(dp), intent(in) :: t, far, near  !! s
+        real(dp) :: width
+        real(dp), dimension(n) :: here, before, behind, slopes
+        real(dp) :: change
+
+        change = merge(0.5_dp, 1.0_dp, functions%kinds(k) == peak)
+        call functions%arguments_at(t, here, slopes)
+        width = near
+        do while (width < far)
+            call functions%arguments_at(t - width, before, slopes)
+            call functions%arguments_at(t + width, behind, slopes)
+            if (.not. max(abs(before(k) - here(k)), abs(behind(k) - here(k))) < change) exit
+            width = 2.0_dp*width
+        end do
+    end function width_of
+
+    pure function longest_step(self, t) result(h)
+        !! How long a step from `t` on may be: to the next moment, and within it not longer than
+        !! lets all stages see it.
+        class(brief_forces_t), intent(in) :: self
+        real(dp), intent(in) :: t  !! s
+        real(dp) :: h
+        integer :: i
+
+        h = huge(h)
+        if (self%moments > most .and. self%least < huge(h)) h = step*self%least
+        if (self%moments > most) return
+        do i = 1, self%moments
+            if (t < self%from(i) - 4*spacing(t)) then
+                h = min(h, self%from(i) - t)
+            else if (t < self%to(i)) then
+                h = min(h, step*self%width(i))
+            end if
+        end do
+    end function longest_step
 end module lagrangia_brief_force

@@ -5,7 +5,6 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force, only: find_briefest_force
     use lagrangia_dop853_control, only: first_step, least_error, next_step
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
@@ -102,7 +101,7 @@ contains
         call self%refuse_system(system, refused)
         if (refused) return
         call self%stand(t0, t_end)
-        call find_briefest_force(system, t0, self%t_end, q, v, self%briefest, self%evaluations)
+        call self%brief%find(system, t0, self%t_end)
         self%last_error = least_error
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
@@ -121,7 +120,7 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: h, next, scaled
-        logical :: last, retry, refused
+        logical :: cut, last, retry, refused
 
         call self%refuse_system(system, refused, error=error)
         if (refused) return
@@ -129,7 +128,9 @@ contains
         self%t_old = self%t_new
         retry = .false.
         do
-            h = min(self%h, self%longest, self%briefest)
+            h = min(self%h, self%longest)
+            cut = self%brief%longest_step(self%t_old) < h
+            h = min(h, self%brief%longest_step(self%t_old))
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
             h = (self%t_old + h) - self%t_old  ! what the clock will say
@@ -139,6 +140,7 @@ contains
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
             call next_step(h, scaled, self%last_error, next)
             if (retry) next = min(next, self%h)
+            if (cut .and. scaled <= 1.0_dp) next = max(next, self%h)
             self%h = next
             if (scaled <= 1.0_dp) then
                 call keep(self, system, self%t_old, self%t_old + h)

@@ -8,7 +8,6 @@ module lagrangia_gauss_adaptive
     !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
     !!   second are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force, only: find_briefest_force
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
@@ -126,7 +125,7 @@ contains
         call self%inside%keep(t0, q, v)
         self%evaluations = self%evaluations + 1
         call self%stand(t0, t_end)
-        call find_briefest_force(system, t0, self%t_end, q, v, self%briefest, self%evaluations)
+        call self%brief%find(system, t0, self%t_end)
         self%rate = best_rate
         speed = maxval(abs(v)/max(1.0_dp, abs(q))) &
                 + maxval(abs(self%s%start)/max(1.0_dp, abs(v)))
@@ -203,7 +202,8 @@ contains
         logical :: cut
 
         do
-            to = next_time(self%t_new, min(self%h, self%longest, self%briefest), self%t_end)
+            to = next_time(self%t_new, min(self%h, self%longest, &
+                           self%brief%longest_step(self%t_new)), self%t_end)
             h = to - self%t_new
             good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return

@@ -70,7 +70,8 @@ contains
         if (allocated(trial)) lost = lost_by_rounding( &
             system, trial, [scene%t0, seen%t, scene%t0, seen%t], reshape( &
             [scene%q, seen%q, 0.5_dp*(scene%q + seen%q), seen%q_most], [system%ndof, 4]), reshape( &
-            [scene%v, seen%v, seen%v_most, 0.5_dp*(scene%v + seen%v)], [system%ndof, 4]))
+            [scene%v, seen%v, seen%v_most, 0.5_dp*(scene%v + seen%v)], [system%ndof, 4]), &
+            seen%v_most/max(seen%t - scene%t0, tiny(seen%t)))
         if (lost > cancelled) then
             call go_other_way(scene, trial, seen, events, allowed, lost, state, known)
             if (.not. known) state = ieee_value(state, ieee_quiet_nan)

@@ -91,7 +91,9 @@ contains
             do i = 1, n
                 text = formula_text(constraint_row(e%constraints(k), i, n, e%symbols), e%symbols)
                 if (text == "0" .or. .not. allocated(d%equations)) cycle
-                text = "lambda"//to_text(k)//" ("//text//")"
+                text = " ("//text//")"
+                if (text == " (1)") text = ""
+                text = "lambda"//to_text(k)//text
                 text = with_term(trim(d%equations(i)), text)
                 if (len(text) > formula_length) deallocate (d%equations)
                 if (allocated(d%equations)) d%equations(i) = text

@@ -43,18 +43,19 @@ contains
         end do
     end subroutine round_all
 
-    pure function lost_by_rounding(system, trial, t, q, v) result(lost)
-        !! By how much accelerations of both differ, beside the largest at any of these states: a
-        !! few epsilon where no terms cancel, 1 where nothing else is left of them.
+    pure function lost_by_rounding(system, trial, t, q, v, known) result(lost)
+        !! By how much accelerations of both differ, beside the largest at any of these states, or
+        !! elsewhere: a few epsilon where no terms cancel, 1 where nothing else is left of them.
         class(system_t), intent(in) :: system  !! with its parameters
         class(system_t), intent(in) :: trial   !! `system` with other rounding
         real(dp), intent(in) :: t(:)           !! times of the states, s
         real(dp), intent(in) :: q(:, :), v(:, :)  !! states, (ndof, size(t))
+        real(dp), intent(in) :: known(system%ndof)  !! accelerations that there were, positive
         real(dp) :: lost
         real(dp), dimension(system%ndof) :: a, other, most, off
         integer :: k
 
-        most = 0.0_dp
+        most = known
         off = 0.0_dp
         do k = 1, size(t)
             call system%accelerations(t(k), q(:, k), v(:, k), a)

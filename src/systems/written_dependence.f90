@@ -11,6 +11,7 @@ module lagrangia_written_dependence
     use lagrangia_number_class, only: is_zero
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_time_functions, only: new_time_functions
     use lagrangia_written_constraints, only: constraint_drift, constraint_row
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_motion, only: written_motion_t
@@ -29,10 +30,17 @@ contains
         type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
+        type(expression_t), allocatable :: formulas(:)
         integer :: i, j, n
 
         n = system%ndof
         system%told_by_formulas = .true.
+        allocate (formulas(1 + n + size(expressions%constraints)))
+        formulas(1) = expressions%lagrangian
+        formulas(2:1 + n) = expressions%forces
+        formulas(2 + n:) = expressions%constraints
+        call new_time_functions(system%time_functions, formulas, &
+                                [0.0_dp*[(i, i=0, 2*n)], system%p], 1 + 2*n)
         power = whole(0)
         do i = 1, n
             q = short(expressions%forces(i), system%p, expressions%symbols)
