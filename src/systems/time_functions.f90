@@ -27,38 +27,59 @@ module lagrangia_time_functions
 
 contains
 
-    pure subroutine new_time_functions(self, formulas, values, moved)
-        !! Those of some formulas.
-        type(time_functions_t), intent(out) :: self    !! is made anew
-        type(expression_t), intent(in) :: formulas(:)  !! symbol 1 is the time
-        real(dp), intent(in) :: values(:)              !! of all symbols: of parameters they count
-        integer, intent(in) :: moved  !! the first so many symbols are no parameters
+    pure subroutine new_time_functions(self, lagrangian, forces, constraints, values, moved)
+        !! Those of all formulas of a system.
+        type(time_functions_t), intent(out) :: self       !! is made anew
+        type(expression_t), intent(in) :: lagrangian      !! symbol 1 is the time
+        type(expression_t), intent(in) :: forces(:)       !! beside it
+        type(expression_t), intent(in) :: constraints(:)  !! that are 0
+        real(dp), intent(in) :: values(:)   !! of all symbols: of parameters they count
+        integer, intent(in) :: moved        !! the first so many symbols are no parameters
         type(expression_t), allocatable :: arguments(:)
-        type(expression_t) :: argument
         logical :: fixed(size(values))
-        integer :: i, j, k, kind, n, turn
+        integer :: i, n, turn
 
+        n = 0
         do turn = 1, 2  ! how many, and which
-            if (turn == 2) allocate (arguments(n), self%kinds(n))
+            allocate (arguments(merge(n, 0, turn == 2)), self%kinds(merge(n, 0, turn == 2)))
             n = 0
-            do i = 1, size(formulas)
-                if (.not. formulas(i)%depends_on(1)) cycle
-                do k = 1, formulas(i)%count
-                    call look_at(formulas(i), k, argument, kind)
-                    if (kind == 0 .or. .not. argument%depends_on(1)) cycle
-                    if (any([(argument%depends_on(j), j=2, moved)])) cycle
-                    n = n + 1
-                    if (turn == 1) cycle
-                    arguments(n) = argument
-                    self%kinds(n) = kind
-                end do
+            call look_through(lagrangian, moved, n, self%kinds, arguments)
+            do i = 1, size(forces)
+                call look_through(forces(i), moved, n, self%kinds, arguments)
             end do
+            do i = 1, size(constraints)
+                call look_through(constraints(i), moved, n, self%kinds, arguments)
+            end do
+            if (n == 0) return
+            if (turn == 1) deallocate (arguments, self%kinds)
         end do
         fixed = .true.
         fixed(1) = .false.
         allocate (self%arguments(1))
         call new_formula_program(self%arguments(1), arguments, 1, fixed, values)
     end subroutine new_time_functions
+
+    pure subroutine look_through(formula, moved, n, kinds, arguments)
+        !! Count those of a formula, and put as many as there is room for behind the others.
+        type(expression_t), intent(in) :: formula
+        integer, intent(in) :: moved
+        integer, intent(inout) :: n
+        integer, intent(inout) :: kinds(:)
+        type(expression_t), intent(inout) :: arguments(:)
+        type(expression_t) :: argument
+        integer :: j, k, kind
+
+        if (.not. formula%depends_on(1)) return
+        do k = 1, formula%count
+            call look_at(formula, k, argument, kind)
+            if (kind == 0 .or. .not. argument%depends_on(1)) cycle
+            if (any([(argument%depends_on(j), j=2, moved)])) cycle
+            n = n + 1
+            if (n > size(kinds)) cycle
+            arguments(n) = argument
+            kinds(n) = kind
+        end do
+    end subroutine look_through
 
     pure subroutine look_at(formula, k, argument, kind)
         !! What node `k` turns with; kind 0 where it does not.

@@ -30,17 +30,13 @@ contains
         type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
-        type(expression_t), allocatable :: formulas(:)
         integer :: i, j, n
 
         n = system%ndof
         system%told_by_formulas = .true.
-        allocate (formulas(1 + n + size(expressions%constraints)))
-        formulas(1) = expressions%lagrangian
-        formulas(2:1 + n) = expressions%forces
-        formulas(2 + n:) = expressions%constraints
-        call new_time_functions(system%time_functions, formulas, &
-                                [0.0_dp*[(i, i=0, 2*n)], system%p], 1 + 2*n)
+        call new_time_functions(system%time_functions, expressions%lagrangian, expressions%forces, &
+                                expressions%constraints, [0.0_dp*[(i, i=0, 2*n)], system%p], &
+                                1 + 2*n)
         power = whole(0)
         do i = 1, n
             q = short(expressions%forces(i), system%p, expressions%symbols)
