@@ -274,6 +274,7 @@ written '*.gp' run .ci/inputs/two_springs.nml
 written '*.gp' run .ci/inputs/sea.nml --set scene%columns=t,x,y_drift_2,energy_drift --set scene%plot=y_drift_2+energy_drift
 files run .ci/inputs/kick.nml
 page claims check .ci/inputs/kick.nml
+page claims check .ci/inputs/horizon.nml
 written '*.gp' run pendulum --set scene%plot='theta+energy_drift' --set scene%columns=t,theta,energy_drift --set scene%dt=0.05 --set scene%duration=2000 --set scene%every=1
 written '*.gp' run double_pendulum --set scene%columns=t,x_bob1,y_bob1,x_bob2,y_bob2 --set scene%plot='x_bob1:y_bob1+y_bob2' --set scene%duration=2
 written '*.gp' run pendulum --set scene%q=0 --set scene%columns=t,y_bob,theta --set scene%plot=y_bob:theta --set scene%duration=1

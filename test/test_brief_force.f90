@@ -2,7 +2,8 @@ module test_brief_force
     !! A force that acts for a moment, or far from where a motion begins, is neither overlooked by
     !! the structure of an own system nor gone over by long steps.
     use funit, only: anyExceptions, assertEqual, assertFalse, assertTrue, TestMethod, TestSuite
-    use lagrangia_brief_force, only: brief_forces_t
+    use lagrangia_brief_force_search, only: find_brief_forces
+    use lagrangia_brief_forces, only: brief_forces_t
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -220,7 +221,7 @@ contains
         call own(t//"Q_y = 'F exp(-((t - 31)/0.1)^2)' Q_x = 'F exp(-((t - 60)/0.05)^2)'", system, &
                  [-2.0_dp])
         if (anyExceptions()) return
-        call brief%find(system, 1.0_dp, 101.0_dp)
+        call find_brief_forces(system, 1.0_dp, 101.0_dp, brief)
         h = brief%longest_step(1.0_dp)
         call assertTrue(31 - 32*sigma <= 1 + h .and. 1 + h <= 31 - 16*sigma, "ends before it")
         h = brief%longest_step(1.0_dp + h)
@@ -231,13 +232,13 @@ contains
         h = brief%longest_step(60.0_dp)
         call assertTrue(sigma <= h .and. h <= 2*sigma, "which is half as long")
         call assertEqual(never, brief%longest_step(60 + 16*sigma), 0.0_dp, "nothing is behind it")
-        call brief%find(system, 31.1_dp, 59.99_dp)
+        call find_brief_forces(system, 31.1_dp, 59.99_dp, brief)
         call assertTrue(brief%longest_step(31.2_dp) > 20, "its end is no moment")
         call assertTrue(brief%longest_step(59.9_dp) <= 2*sigma, "one just behind the end is")
-        call brief%find(system, 1.0_dp, never)
+        call find_brief_forces(system, 1.0_dp, never, brief)
         call assertEqual(never, brief%longest_step(1.0_dp), 0.0_dp, "without an end none")
         call own(t//"Q_y = 'F sgn(t - 31)'", system, [-2.0_dp])
-        call brief%find(system, 1.0_dp, 101.0_dp)
+        call find_brief_forces(system, 1.0_dp, 101.0_dp, brief)
         h = brief%longest_step(1.0_dp)
         call assertEqual(30.0_dp, h, 1e-12_dp, "to a jump")
         call assertTrue(1 + h < 31.0_dp, "not to its middle")
@@ -245,12 +246,12 @@ contains
         call assertEqual(32, i, "and over it")
         call assertEqual(never, brief%longest_step(31 + 16*spacing(101.0_dp)), 0.0_dp, "behind it")
         call own(t//"Q_y = 'F abs(sin(10 t)) + exp(-x)/(1 + y^2) + cos(t)'", system, [-2.0_dp])
-        call brief%find(system, 0.1_dp, 10.0_dp)
+        call find_brief_forces(system, 0.1_dp, 10.0_dp, brief)
         call assertEqual(acos(-1.0_dp)/10 - 0.1_dp, brief%longest_step(0.1_dp), 1e-13_dp, "turns")
-        call brief%find(system, 0.1_dp, 100.0_dp)
+        call find_brief_forces(system, 0.1_dp, 100.0_dp, brief)
         call assertEqual(never, brief%longest_step(0.1_dp), 0.0_dp, "kinks without number")
         call own(t//"Q_y = 'F abs(sin(10 t)) exp(-(sin(10 t)/0.1)^2)'", system, [-2.0_dp])
-        call brief%find(system, 0.1_dp, 100.0_dp)
+        call find_brief_forces(system, 0.1_dp, 100.0_dp, brief)
         h = brief%longest_step(0.1_dp)
         call assertTrue(2*sigma/10 <= h .and. h <= 4*sigma/10, "kicks without number")
     end subroutine where_moments_are
@@ -267,7 +268,7 @@ contains
         do i = 1, size(forces)
             call own(t//"Q_y = '"//trim(forces(i))//"'", system, [2.0_dp])
             if (anyExceptions()) return
-            call brief%find(system, -1.0_dp, 101.0_dp)
+            call find_brief_forces(system, -1.0_dp, 101.0_dp, brief)
             call assertEqual(huge(1.0_dp), brief%longest_step(1.0_dp), 0.0_dp, forces(i))
         end do
     end subroutine steady_forces

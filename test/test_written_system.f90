@@ -1,6 +1,7 @@
 module test_written_system
     !! Systems in formulas: they move as those that were derived by hand, their structure is found,
     !! their scene can be run again.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertLessThan, assertTrue
     use lagrangia_audit, only: audit_system
@@ -370,6 +371,16 @@ contains
             call system%accelerations(0.0_dp, [0.3_dp], speeds(i:i), a)
             call assertEqual(-0.5_dp/gamma**3, a(1), 64*epsilon(a))
         end do
+        call read_typed("own", "coordinates = 'r' parameters = 'm' "// &
+                        "L = '-m sqrt(1 - 0.2/r - r_dot^2/(1 - 0.2/r))'", 1, [3.0_dp], system)
+        if (anyExceptions()) return
+        call system%momenta(0.0_dp, [0.3_dp], [0.2_dp], p)
+        call system%velocities(0.0_dp, [0.3_dp], p, v)
+        call assertEqual(0.2_dp, v(1), 16*epsilon(v), "outside of a horizon")
+        call system%momenta(0.0_dp, [0.1_dp], [1.5_dp], p)
+        call assertEqual(-4.5_dp/sqrt(1.25_dp), p(1), 16*epsilon(p), "inside of it")
+        call system%velocities(0.0_dp, [0.1_dp], p, v)
+        call assertTrue(ieee_is_nan(v(1)), "nothing rests there, where the way back would begin")
     end subroutine any_degree_in_velocities
 
     subroutine what_cancels_is_not_there()

@@ -10,6 +10,7 @@ module lagrangia_audit_equations
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
+    use lagrangia_number_class, only: all_finite
     use lagrangia_system, only: lanes, system_t
     use lagrangia_term_sizes, only: motion_t, nearby_t, neighbours, size_of_solution, term_size
     implicit none (type, external)
@@ -133,6 +134,8 @@ contains
             call compare(audit, "forces are dL/dq", f, terms%dl_dq, force_size)
             call size_of_solution(terms%mass, momentum_size, velocity_size, error)
             if (allocated(error)) return  ! the mass matrix has a claim of its own
+            call system%momenta(t, q, 0.0_dp*v, p)
+            if (.not. all_finite(p)) return  ! nothing rests here, where the way back would begin
             call system%velocities(t, q, terms%dl_dv, v_back)
             call compare(audit, "velocities from momenta", v_back, v, velocity_size)
         end associate

@@ -6,7 +6,8 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force, only: brief_forces_t
+    use lagrangia_brief_force_search, only: find_brief_forces
+    use lagrangia_brief_forces, only: brief_forces_t
     use lagrangia_dop853_control, only: first_step, least_error, next_steps
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
@@ -94,7 +95,7 @@ contains
         call slope(system, system%ndof, scene%t0, y, f)
         call first_step(system, system%ndof, self%tolerance, scene%t0, self%t_end(lane), y, f, &
                         self%h(lane))
-        call self%brief(lane)%find(system, scene%t0, self%t_end(lane))
+        call find_brief_forces(system, scene%t0, self%t_end(lane), self%brief(lane))
         self%y(lane, :) = y
         self%k(lane, :, 1) = f
         self%t(lane) = scene%t0

@@ -5,6 +5,7 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_brief_force_search, only: find_brief_forces
     use lagrangia_dop853_control, only: first_step, least_error, next_step
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
@@ -101,7 +102,7 @@ contains
         call self%refuse_system(system, refused)
         if (refused) return
         call self%stand(t0, t_end)
-        call self%brief%find(system, t0, self%t_end)
+        call find_brief_forces(system, t0, self%t_end, self%brief)
         self%last_error = least_error
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v

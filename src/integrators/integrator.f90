@@ -2,7 +2,7 @@ module lagrangia_integrator
     !! The contract of an integrator: `prepare` refuses or allocates, `start` begins a motion,
     !! `advance` goes on from where the last one ended, and cannot fail.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force, only: brief_forces_t
+    use lagrangia_brief_forces, only: brief_forces_t
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
@@ -53,7 +53,7 @@ module lagrangia_integrator
         real(dp) :: least_tolerance = 1e-15_dp  !! below, all is rounding
         real(dp) :: noise_margin = 16.0_dp  !! the least tolerance of use is rounding over this
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
-        type(brief_forces_t) :: brief     !! nor goes over what acts for a moment: `start` finds it
+        type(brief_forces_t) :: brief     !! nor goes over what acts for a moment: `start` says
         integer(i8) :: most_steps = huge(1_i8)  !! after so many a run fails
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s

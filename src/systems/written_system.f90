@@ -367,7 +367,7 @@ contains
             do halvings = 1, most
                 call self%programs(of_momentum)%evaluate([t, q, v + step], results)
                 if (maxval(abs(p - results(:n))) < size_left) exit
-                if (.not. maxval(abs(step)) > epsilon(v)*maxval(abs(v))) return
+                if (maxval(abs(step)) <= epsilon(v)*maxval(abs(v))) return
                 step = 0.5_dp*step
             end do
             v = v + step

@@ -1,55 +1,39 @@
-module lagrangia_brief_force
-    !! A force that acts for a moment, or turns at once, which long steps would go over without a
-    !! sign: an error estimate sees only what a stage has met. Where functions of the time in an
-    !! own system's formulas do so is known before the first step.
+module lagrangia_brief_force_search
+    !! Where functions of the time in an own system's formulas act for a moment or turn at once, is
+    !! known before the first step.
+    use lagrangia_brief_forces, only: brief_forces_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_system, only: system_t
     use lagrangia_time_functions, only: kink, peak, time_functions_t
     implicit none (type, external)
     private
-    public :: brief_forces_t
+    public :: find_brief_forces
 
     integer, parameter :: looks = 2000  !! times at which arguments of functions are looked at
-    integer, parameter :: most = 200    !! moments that are told apart
-    real(dp), parameter :: reach = 16.0_dp  !! widths to both sides: \(1/\cosh 16 = 2\cdot 10^{-7}\)
-    real(dp), parameter :: step = 2.0_dp    !! widths that a step may be long
-
-    type :: brief_forces_t
-        !! Moments, in no order; none at first.
-        private
-        integer :: moments = 0                      !! of more than `most` only the shortest counts
-        real(dp), dimension(most) :: from = 0.0_dp, to = 0.0_dp, width = 0.0_dp  !! s
-        real(dp) :: least = huge(1.0_dp)            !! width but of kinks, s
-    contains
-        procedure :: find
-        procedure :: longest_step
-    end type brief_forces_t
 
 contains
 
-    pure subroutine find(self, system, t0, t_end)
+    pure subroutine find_brief_forces(system, t0, t_end, brief)
         !! The moments of a motion: of each function about the zeros of its argument, or the maxima,
         !! as far as they are apart by more than a part in `looks` of the motion.
-        class(brief_forces_t), intent(inout) :: self  !! is made anew
-        class(system_t), intent(in) :: system         !! with its parameters
-        real(dp), intent(in) :: t0, t_end             !! start and end of the motion, s
+        class(system_t), intent(in) :: system      !! with its parameters
+        real(dp), intent(in) :: t0, t_end          !! start and end of the motion, s
+        type(brief_forces_t), intent(out) :: brief !! these moments
 
-        self%moments = 0
-        self%least = huge(1.0_dp)
         select type (system)
         class is (lagrangian_system_t)
             if (.not. allocated(system%time_functions%kinds)) return
             if (size(system%time_functions%kinds) == 0 .or. t_end >= huge(t_end)) return
             if (.not. (t_end - t0)/looks > spacing(max(abs(t0), abs(t_end)))) return
-            call look_along(self, system%time_functions, size(system%time_functions%kinds), t0, &
+            call look_along(brief, system%time_functions, size(system%time_functions%kinds), t0, &
                             t_end)
         end select
-    end subroutine find
+    end subroutine find_brief_forces
 
-    pure subroutine look_along(self, functions, n, t0, t_end)
+    pure subroutine look_along(brief, functions, n, t0, t_end)
         !! From one look before the start to one behind the end: what is 0 there is no sign.
-        type(brief_forces_t), intent(inout) :: self
+        type(brief_forces_t), intent(inout) :: brief
         type(time_functions_t), intent(in) :: functions
         integer, intent(in) :: n
         real(dp), intent(in) :: t0, t_end
@@ -66,7 +50,7 @@ contains
                 if (before(k) > 0.0_dp .and. now(k) <= 0.0_dp .or. &
                     before(k) < 0.0_dp .and. now(k) >= 0.0_dp .and. &
                     functions%kinds(k) /= peak) then
-                    call add_moment(self, functions, n, k, t_before, t, before(k), &
+                    call add_moment(brief, functions, n, k, t_before, t, before(k), &
                                     spacing(max(abs(t0), abs(t_end))))
                 end if
             end do
@@ -86,17 +70,16 @@ contains
         signs = merge(slopes, values, functions%kinds == peak)
     end subroutine signs_at
 
-    pure subroutine add_moment(self, functions, n, k, t_before, t_behind, before, ulp)
-        !! That of function `k` between two times, by bisection. A kink is gone over by one step,
-        !! which is too short to count, so that the others begin and end beside it.
-        type(brief_forces_t), intent(inout) :: self
+    pure subroutine add_moment(brief, functions, n, k, t_before, t_behind, before, ulp)
+        !! That of function `k` between two times, by bisection.
+        type(brief_forces_t), intent(inout) :: brief
         type(time_functions_t), intent(in) :: functions
         integer, intent(in) :: n, k
         real(dp), intent(in) :: t_before, t_behind  !! s
         real(dp), intent(in) :: before              !! what changes its sign, at the former
         real(dp), intent(in) :: ulp                 !! of the times, s
         real(dp), dimension(n) :: middle
-        real(dp) :: a, b, t, width
+        real(dp) :: a, b, t
         integer :: i
 
         a = t_before
@@ -110,16 +93,12 @@ contains
                 b = t
             end if
         end do
-        width = ulp
-        if (functions%kinds(k) /= kink) then
-            width = width_of(functions, n, k, b, looks*(t_behind - t_before), ulp)
-            self%least = min(self%least, width)
+        if (functions%kinds(k) == kink) then
+            call brief%add(b, ulp, kink=.true.)
+        else
+            call brief%add(b, width_of(functions, n, k, b, looks*(t_behind - t_before), ulp), &
+                           kink=.false.)
         end if
-        self%moments = self%moments + 1
-        if (self%moments > most) return
-        self%from(self%moments) = b - reach*width
-        self%to(self%moments) = b + reach*width
-        self%width(self%moments) = merge(reach*width, width, functions%kinds(k) == kink)
     end subroutine add_moment
 
     pure function width_of(functions, n, k, t, far, near) result(width)
@@ -142,24 +121,4 @@ contains
             width = 2.0_dp*width
         end do
     end function width_of
-
-    pure function longest_step(self, t) result(h)
-        !! How long a step from `t` on may be: to the next moment, and within it not longer than
-        !! lets all stages see it.
-        class(brief_forces_t), intent(in) :: self
-        real(dp), intent(in) :: t  !! s
-        real(dp) :: h
-        integer :: i
-
-        h = huge(h)
-        if (self%moments > most .and. self%least < huge(h)) h = step*self%least
-        if (self%moments > most) return
-        do i = 1, self%moments
-            if (t < self%from(i) - 4*spacing(t)) then
-                h = min(h, self%from(i) - t)
-            else if (t < self%to(i)) then
-                h = min(h, step*self%width(i))
-            end if
-        end do
-    end function longest_step
-end module lagrangia_brief_force
+end module lagrangia_brief_force_search
