@@ -4,7 +4,7 @@ module test_gnuplot_scales
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, series_t
-    use lagrangia_gnuplot_axes, only: add_spread, add_ticks
+    use lagrangia_gnuplot_axes, only: add_decades, add_spread, add_ticks
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_plot_panel, only: aspect
@@ -237,6 +237,8 @@ contains
         !! drawn below all others, where a tick says so.
         character(:), allocatable :: text
         character(*), parameter :: nearly = char(226)//char(137)//char(136)
+        type(lines_t) :: lines
+        integer :: edge, first
 
         text = script("", ["error"])
         call assertTrue(index(text, "set logscale y; set yrange [0.6e-13:1.01e-9]; set ytics ("// &
@@ -264,6 +266,11 @@ contains
                          [0.0_dp, 0.0_dp])
         call assertTrue(index(text, "yrange [0.6e-19:1.01e-15]; set ytics (""0"" 1e-19, ") > 0, &
                         text)
+        lines%text = ""
+        call add_decades(lines, [range_of([3e-7_dp, 2e-5_dp]), range_of([2e-12_dp, 5e-9_dp]), &
+                                 range_of([0.0_dp, 0.0_dp])], first, edge)
+        call assertTrue(index(lines%text, "yrange [0.6e-13:1.01e-4]") > 0, "from the least of "// &
+                        "all curves to the largest: "//lines%text)
     end subroutine magnitudes_on_decades
 
     subroutine fast_oscillations_have_envelopes()
