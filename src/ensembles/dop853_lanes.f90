@@ -144,7 +144,8 @@ contains
         end do
         call next_steps(h, scaled, self%last_error, next)
         next = merge(min(next, self%h), next, self%moved .and. self%retry)
-        next = merge(max(next, self%h), next, self%moved .and. (cut .or. last))  ! for `go_on`
+        ! what was cut short, for a moment or the end, asks for no shorter one behind it
+        next = merge(max(next, self%h), next, self%moved .and. (cut .or. last))
         self%h = merge(next, self%h, self%busy)
         self%retry = self%busy .and. .not. self%moved
         self%inside_known = self%inside_known .and. .not. self%moved

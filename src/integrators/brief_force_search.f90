@@ -38,9 +38,10 @@ contains
         integer, intent(in) :: n
         real(dp), intent(in) :: t0, t_end
         real(dp), dimension(n) :: now, before
-        real(dp) :: t, t_before
+        real(dp) :: t, t_before, ulp
         integer :: i, k
 
+        ulp = spacing(max(abs(t0), abs(t_end)))
         t_before = t0
         before = 0.0_dp
         do i = -1, looks + 1
@@ -50,8 +51,7 @@ contains
                 if (before(k) > 0.0_dp .and. now(k) <= 0.0_dp .or. &
                     before(k) < 0.0_dp .and. now(k) >= 0.0_dp .and. &
                     functions%kinds(k) /= peak) then
-                    call add_moment(brief, functions, n, k, t_before, t, before(k), &
-                                    spacing(max(abs(t0), abs(t_end))))
+                    call add_moment(brief, functions, n, k, t_before, t, before(k), ulp)
                 end if
             end do
             before = now

@@ -129,9 +129,9 @@ contains
         self%t_old = self%t_new
         retry = .false.
         do
-            h = min(self%h, self%longest)
-            cut = self%brief%longest_step(self%t_old) < h
-            h = min(h, self%brief%longest_step(self%t_old))
+            h = self%brief%longest_step(self%t_old)
+            cut = h < min(self%h, self%longest)
+            h = min(h, self%h, self%longest)
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
             h = (self%t_old + h) - self%t_old  ! what the clock will say

@@ -36,31 +36,30 @@ contains
         real(dp), intent(in) :: values(:)   !! of all symbols: of parameters they count
         integer, intent(in) :: moved        !! the first so many symbols are no parameters
         type(expression_t), allocatable :: arguments(:)
+        integer, allocatable :: kinds(:)
         logical :: fixed(size(values))
-        integer :: i, n, turn
+        integer :: i, n
 
+        n = lagrangian%count + sum(forces%count) + sum(constraints%count)  ! no more than these
+        allocate (arguments(n), kinds(n))
         n = 0
-        do turn = 1, 2  ! how many, and which
-            allocate (arguments(merge(n, 0, turn == 2)), self%kinds(merge(n, 0, turn == 2)))
-            n = 0
-            call look_through(lagrangian, moved, n, self%kinds, arguments)
-            do i = 1, size(forces)
-                call look_through(forces(i), moved, n, self%kinds, arguments)
-            end do
-            do i = 1, size(constraints)
-                call look_through(constraints(i), moved, n, self%kinds, arguments)
-            end do
-            if (n == 0) return
-            if (turn == 1) deallocate (arguments, self%kinds)
+        call look_through(lagrangian, moved, n, kinds, arguments)
+        do i = 1, size(forces)
+            call look_through(forces(i), moved, n, kinds, arguments)
         end do
+        do i = 1, size(constraints)
+            call look_through(constraints(i), moved, n, kinds, arguments)
+        end do
+        self%kinds = kinds(:n)
+        if (n == 0) return
         fixed = .true.
         fixed(1) = .false.
         allocate (self%arguments(1))
-        call new_formula_program(self%arguments(1), arguments, 1, fixed, values)
+        call new_formula_program(self%arguments(1), arguments(:n), 1, fixed, values)
     end subroutine new_time_functions
 
     pure subroutine look_through(formula, moved, n, kinds, arguments)
-        !! Count those of a formula, and put as many as there is room for behind the others.
+        !! Put those of a formula behind the others.
         type(expression_t), intent(in) :: formula
         integer, intent(in) :: moved
         integer, intent(inout) :: n
@@ -75,7 +74,6 @@ contains
             if (kind == 0 .or. .not. argument%depends_on(1)) cycle
             if (any([(argument%depends_on(j), j=2, moved)])) cycle
             n = n + 1
-            if (n > size(kinds)) cycle
             arguments(n) = argument
             kinds(n) = kind
         end do

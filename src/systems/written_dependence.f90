@@ -35,7 +35,7 @@ contains
         n = system%ndof
         system%told_by_formulas = .true.
         call new_time_functions(system%time_functions, expressions%lagrangian, expressions%forces, &
-                                expressions%constraints, [0.0_dp*[(i, i=0, 2*n)], system%p], &
+                                expressions%constraints, [spread(0.0_dp, 1, 1 + 2*n), system%p], &
                                 1 + 2*n)
         power = whole(0)
         do i = 1, n
