@@ -7,6 +7,7 @@ module test_brief_force
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -37,6 +38,8 @@ contains
         call suite%addTest(TestMethod("nor do sweeps", sweeps_meet_a_kick))
         call suite%addTest(TestMethod("steps beside kinks are long", kinks_cost_little))
         call suite%addTest(TestMethod("where moments are", where_moments_are))
+        call suite%addTest(TestMethod("of any shape, at any time", moments_of_any_shape))
+        call suite%addTest(TestMethod("functions of the time", functions_are_counted))
         call suite%addTest(TestMethod("steady forces have none", steady_forces))
     end function brief_force_suite
 
@@ -260,13 +263,75 @@ contains
         call assertTrue(2*sigma/10 <= h .and. h <= 4*sigma/10, "kicks without number")
     end subroutine where_moments_are
 
+    subroutine moments_of_any_shape()
+        !! Of a peak that is steep on one side, of a denominator, of a kink at a negative time and
+        !! of one in a motion as short as rounding; of as many as are told apart.
+        class(system_t), allocatable :: system
+        character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' V = '0' "
+        type(brief_forces_t) :: brief
+        real(dp), parameter :: never = huge(1.0_dp), ulp = spacing(31.0_dp)
+        integer :: i
+
+        call own(t//"Q_y = 'F exp(-exp(-(t - 31)/0.1) - (t - 31)/10)'", system, [-2.0_dp])
+        if (anyExceptions()) return
+        call find_brief_forces(system, 1.0_dp, 101.0_dp, brief)
+        call assertTrue(brief%longest_step(31.46_dp) < 2, "its steep side counts")
+        call own(t//"Q_y = 'F/(1 + ((t - 31)/0.1)^2)'", system, [-2.0_dp])
+        call find_brief_forces(system, 1.0_dp, 101.0_dp, brief)
+        call assertTrue(brief%longest_step(31.0_dp) < 0.4_dp, "a denominator")
+        call own(t//"Q_y = 'F sgn(t + 31)'", system, [-2.0_dp])
+        call find_brief_forces(system, -101.0_dp, -1.0_dp, brief)
+        call assertEqual(70.0_dp, brief%longest_step(-101.0_dp), 1e-12_dp, "before 0")
+        i = nint(brief%longest_step(-31.0_dp)/spacing(101.0_dp))
+        call assertEqual(32, i, "roundings of the times")
+        call find_brief_forces(system, -31 - 500*ulp, -31 + 500*ulp, brief)
+        call assertEqual(never, brief%longest_step(-31 - 500*ulp), 0.0_dp, "all is rounding")
+        brief = brief_forces_t()
+        do i = 1, 200
+            call brief%add(100.0_dp*i, 0.1_dp, kink=.false.)
+        end do
+        call assertEqual(never, brief%longest_step(20050.0_dp), 0.0_dp, "behind two hundred")
+        call assertTrue(brief%longest_step(20000.0_dp) < 1, "the last of them")
+        call brief%add(30000.0_dp, 0.1_dp, kink=.false.)
+        call assertTrue(brief%longest_step(20050.0_dp) < 1, "more are everywhere")
+    end subroutine moments_of_any_shape
+
+    subroutine functions_are_counted()
+        !! Those of the time alone, wherever they stand.
+        class(system_t), allocatable :: system
+        character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' V = "
+
+        call own(t//"'0' Q_y = 'F abs(sin(10 t)) + exp(-x)/(1 + y^2) + cos(t) + exp(-x t)'", &
+                 system, [2.0_dp])
+        if (anyExceptions()) return
+        call assertEqual(1, functions_of(system), "one beside those of places")
+        call own(t//"'x exp(-t^2)' Q_x = 'tanh(t)' Q_y = 'F sgn(t) + abs(F)'", system, [2.0_dp])
+        call assertEqual(3, functions_of(system), "in V and two forces")
+        call own(t//"'x y' constraint = 'y = exp(-(t - 31)^2)'", system, [2.0_dp])
+        call assertEqual(1, functions_of(system), "in a constraint")
+        call own(t//"'x y exp(-x)' Q_y = 'F cos(t)'", system, [2.0_dp])
+        call assertEqual(0, functions_of(system), "none")
+    end subroutine functions_are_counted
+
+    integer function functions_of(system) result(number)
+        !! How many of the time alone an own system has; -1: nobody has looked.
+        class(system_t), intent(in) :: system
+
+        number = -1
+        select type (system)
+        class is (lagrangian_system_t)
+            if (allocated(system%time_functions%kinds)) number = size(system%time_functions%kinds)
+        end select
+    end function functions_of
+
     subroutine steady_forces()
         !! Neither what always changes nor what the time is not in has moments.
         class(system_t), allocatable :: system
         character(*), parameter :: t = "parameters = 'F' T = '(x_dot^2 + y_dot^2)/2' V = '0' "
         type(brief_forces_t) :: brief
-        character(40), parameter :: forces(6) = [character(40) :: "F cos(t)", "-F y", &
-            "F exp(-(x - 5)^2 t)", "t^2/(1 + y_dot^2)", "F t^3 + x^(-2)", "F exp(-t/10)"]
+        character(40), parameter :: forces(7) = [character(40) :: "F cos(t)", "-F y", &
+            "F exp(-(x - 5)^2 t)", "t^2/(1 + y_dot^2)", "F t^3 + x^(-2)", "F exp(-t/10)", &
+            "F (1 + t^2)^0.5"]
         integer :: i
 
         do i = 1, size(forces)
