@@ -21,6 +21,6 @@ link_modules() { # link_modules FILE...: what these files use, and what that use
 rm -rf .ci/quad/src
 mkdir .ci/quad/src
 link_modules .ci/quad/app/*.f90
-fpm build -C .ci/quad --profile release --flag "-DREAL128" \
+fpm build -C .ci/quad --profile release --flag "-DREAL128 -O1 -fno-unroll-loops" \
     --link-flag "-Wl,--unresolved-symbols=ignore-in-object-files" >/dev/null
 ls -t .ci/quad/build/gfortran_*/app/quad | head -n 1
