@@ -17,7 +17,8 @@ module own_closed_forms
 
     type, extends(lagrangian_system_t) :: own_spring_t
         !! A mass on a spring.
-        integer :: kind = right  !! of the closed form
+        integer :: kind = right      !! of the closed form
+        real(dp) :: place = 1.0_dp   !! as far as it usually goes, m
     contains
         procedure :: outline
         procedure :: lagrangian
@@ -60,6 +61,7 @@ contains
         d%title = "a spring that a student brought"
         d%coordinates = [coordinate("x", "m", "from where the spring is relaxed")]
         d%parameters = [positive("m", "kg", "mass", 2.0_dp), positive("k", "N/m", "spring", 5.0_dp)]
+        if (self%place < 1) d%typical_places = [self%place]
     end subroutine outline
 
     pure function lagrangian(self, t, q, v) result(l)

@@ -1,11 +1,16 @@
 module test_motion_statements
     !! Motions that are written out, frequencies as numbers, systems without an equilibrium.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_constant_values, only: solve_constants
     use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t
+    use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong
     use lagrangia_kinds, only: dp
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text, word_t
     use tried_responses, only: judged
@@ -26,6 +31,7 @@ contains
         call suite%addTest(TestMethod("starts", starts))
         call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
         call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
+        call suite%addTest(TestMethod("constants_have_converged", constants_have_converged))
     end function motion_statements_suite
 
     subroutine motions()
@@ -178,4 +184,33 @@ contains
         call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; other "// &
                          "values are needed", error%message)
     end subroutine no_equilibrium
+
+    subroutine constants_have_converged()
+        !! All of them: a root of eightfold multiplicity gains a factor of 7/8 a step, so that 60
+        !! of them end 1e-4 beside it, where its equation holds to 1e-30.
+        character, parameter :: names(4) = ["x", "y", "A", "B"]
+        type(symbols_t) :: symbols
+        type(expression_t) :: equations(2)
+        type(error_t), allocatable :: error
+        real(dp) :: values(6, 4)
+        logical :: regular
+        integer :: i
+
+        do i = 1, size(names)
+            call symbols%add(names(i))
+        end do
+        do i = 1, size(values, 1)
+            values(i, :) = [0.1_dp*i, 1.05_dp/i, 0.3_dp, 0.4_dp]
+        end do
+        call parse_formula("A - x", symbols, equations(1), error)
+        call parse_formula("B^2 - y - A", symbols, equations(2), error)
+        call solve_constants(equations, [3, 4], values, regular)
+        call assertTrue(regular .and. all(ieee_is_finite(values)), "simple roots")
+        call assertEqual(values(:, 1), values(:, 3), 1e-14_dp, "A")
+        call assertEqual(sqrt(values(:, 2) + values(:, 1)), abs(values(:, 4)), 1e-14_dp, "B")
+        values(:, 3:) = 0.3_dp
+        call parse_formula("(B - y)^8", symbols, equations(2), error)
+        call solve_constants(equations, [3, 4], values, regular)
+        call assertTrue(regular .and. all(ieee_is_nan(values(:, 4))), "B has not converged")
+    end subroutine constants_have_converged
 end module test_motion_statements

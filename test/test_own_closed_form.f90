@@ -50,8 +50,8 @@ contains
     end subroutine refused
 
     subroutine wrong_ones_are_refused()
-        !! A number of coordinates, a start, a frequency that is 1e-4 too high; and equations with
-        !! a drag of 1e-3 that the inherited closed form knows nothing of.
+        !! A number of coordinates, a start, a frequency that is 1e-4 too high, also where all is
+        !! small; and equations with a drag of 1e-3 that the inherited closed form knows nothing of.
         character(*), parameter :: disobeys = &
             "its closed form does not obey the equations of motion at "
 
@@ -60,6 +60,8 @@ contains
         call refused(own_spring_t(kind=wrong_start), &
                      "system 'own_spring': its closed form has the motion from t = ")
         call refused(own_spring_t(kind=wrong_motion), &
+                     "system 'own_spring': "//disobeys)
+        call refused(own_spring_t(kind=wrong_motion, place=1e-4_dp), &
                      "system 'own_spring': "//disobeys)
         call refused(own_trough_t(slip=1e-3_dp), "system 'own_trough': its reduced system does "// &
                      "not obey the equations of motion at ")
