@@ -420,6 +420,12 @@ for sweep in flip_map period_of_amplitude; do
     check "sweep $sweep: the same by three processes, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
         python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 200 and r[\"threads\"] == 3 and r[\"failed\"] == 0" "$work/out"'
 done
+wide=$(df -k --output=avail "$work" | awk 'END { print int(sqrt(1.3*1024*$1/83)) + 1 }') # each takes 83 bytes
+run sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --output "$work/wide"
+check "sweep: more than the disk holds is not begun" eval '[ $status -eq 2 ] && [ ! -e "$work/wide" ] && grep -q "GB are free in .*; .--any-size. begins all the same$" "$work/err"'
+timeout --signal=INT 3 "$program" sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --any-size --output "$work/wide" >"$work/out" 2>"$work/err" </dev/null
+check "sweep: but by --any-size it is" test -e "$work/wide/pendulum_sweep.dat.part"
+rm -rf "$work/wide"
 run sweep pendulum --over q=0.5:1:3 --keep theta --threads 1000 --output "$work/sweep"
 check "sweep: it says how many processes there were" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 1 process, in lanes$" "$work/out"
 run sweep pendulum --over q=0.5:1:3 --keep period --threads 1000 --output "$work/sweep"

@@ -4,8 +4,10 @@ module test_audit_states
     use lagrangia_audit, only: audit_system
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_flow, only: flow_derivative
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
+    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: default_values, system_t
@@ -24,7 +26,24 @@ contains
         call suite%addTest(TestMethod("masses_that_are_negative_elsewhere", &
                                       masses_that_are_negative_elsewhere))
         call suite%addTest(TestMethod("forces_that_are_narrow", forces_that_are_narrow))
+        call suite%addTest(TestMethod("sizes_of_rates", sizes_of_rates))
     end function audit_states_suite
+
+    subroutine sizes_of_rates()
+        !! Of the energy of m = 2 kg on k = 3 N/m at 0.4 m and 0.7 m/s, with terms of 1 J: the
+        !! spring takes k x x_dot = 0.84 W, and the mass gives as much.
+        type(oscillator_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: rate, scale, noise
+
+        call system%configure([2.0_dp, 3.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], error)
+        call assertFalse(allocated(error), "parameters")
+        call flow_derivative(system, 0, 0.0_dp, [0.4_dp], [0.7_dp], rate, scale, noise, &
+                             size_of_terms=1.0_dp)
+        call assertEqual(0.0_dp, rate, 1e-12_dp, "it is conserved")
+        call assertEqual(1.0_dp + 2*0.84_dp, scale, 1e-10_dp, "what adds up to that")
+        call assertTrue(1e-16_dp < noise .and. noise < 1e-11_dp, "noise")
+    end subroutine sizes_of_rates
 
     subroutine audited(formulas, audit)
         !! The audit of a system in formulas, as `check` does it with a scene.

@@ -218,6 +218,7 @@ contains
         call becomes("(x + r + theta + theta1 + theta2)^12", "(x + theta + theta1 + theta2 + r)^12")
         call becomes("1e300^2 x", "1e300^2 x")
         call becomes("0^-1 + x", "0^-1 + x")
+        call becomes("x + log(0)", "x + log(0)")
         text = "x"
         do i = 1, 25
             text = text//" sin("//to_text(i)//" x)"

@@ -2,7 +2,7 @@ module test_characters
     !! What may reach a terminal, a data file's header and JSON; and the heads of tables, which no
     !! name or unit may break.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_characters, only: printable
+    use lagrangia_characters, only: characters, printable
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_errors, only: error_t
     use lagrangia_json, only: json_string
@@ -49,6 +49,10 @@ contains
         call assertEqual(umlaut//"a"//arrow//face, printable(umlaut//"a"//arrow//face))
         call assertEqual(0, len(printable("")))
         call assertEqual(3, len(printable(" a ")), "blanks count")
+        call assertEqual(4, characters(umlaut//"a"//arrow//face))
+        do i = 128, 191
+            call assertEqual(1, characters(char(206)//char(i)), "one of two bytes")
+        end do
     end subroutine text_stays
 
     subroutine controls_are_told()

@@ -39,8 +39,9 @@ contains
         type(word_t) :: none(0)
         character(:), allocatable :: text
 
-        text = "&scene system = 'own', dt = 0.1, duration = 1, q = 2*0.3 / &lagrangian "// &
-               formulas//" /"
+        text = "&scene system = 'own', dt = 0.1, duration = 1, q = 2*0.3"
+        if (index(formulas, "'z'") > 0) text = text//", 0.09"
+        text = text//" / &lagrangian "//formulas//" /"
         if (values /= "") text = text//" &own "//values//" /"
         call parse_scene(text, "own.nml", none, scene, system, error)
         if (allocated(error)) call assertEqual("", error%message, "the scene")
@@ -157,6 +158,11 @@ contains
         call has(lines, "case (4)")
         call has(lines, 'd%constraint = "holonomic, rheonomic"')
         call has(lines, "d%quantities(4:)%scale = 1.0_dp")
+        call write_of("coordinates = 'x', 'y', 'z' parameters = 'm' V = '0' "// &
+                      "T = 'm/2 (x_dot^2 + y_dot^2 + z_dot^2)' constraint = 'y = x', 'z = x^2'", &
+                      "m = 1.5", lines)
+        call has(lines, "case (4:5)")
+        call has(lines, "value = lambda(i - 3)")
     end subroutine constraints_as_procedures
 
     subroutine long_lines_are_broken()

@@ -78,6 +78,12 @@ contains
         call judged("oscillator", &
                     "x(t) = x0 cos(omega t) + v0/omega sin(omega t)", is_right)
         call judged("oscillator", &
+                    "omega_2 = sqrt(omega_0^2 - gamma^2)", is_right)
+        call judged("oscillator", "constant: A, B"//line_feed// &
+                    "A = x cos(omega t) - x_dot/omega sin(omega t)", is_right)
+        call judged("charged_particle", &
+                    "z = 0.1 + 2 t"//line_feed//"z_dot = 2", is_right)
+        call judged("oscillator", &
                     "x = x_0 cos(sqrt(k/m) t)", is_right)
         call judged("oscillator", &
                     "x = x_0 cos(k/m t)", is_wrong)

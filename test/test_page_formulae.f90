@@ -87,7 +87,7 @@ contains
         integer :: read_of
 
         read_of = 0
-        call put(letters, "a b d", [1.0_dp, 2.5_dp, 3.0_dp])
+        call put(letters, "a b d", [1.2_dp, 2.5_dp, 3.0_dp])
         call try("least-time", "Hero, flat mirror", letters, read_of)
         call assertEqual(2, read_of, "flat")
         call put(letters, "R s", [2.0_dp, 1.5_dp])

@@ -1,11 +1,12 @@
 module test_rare_refusals
     !! What is rarely wrong is refused in its own words, too; and what is just within a limit is
     !! taken.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_homework, only: homework_t, parse_homework
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_scene_reference, only: entries
     use lagrangia_sweep, only: sweep_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
@@ -28,6 +29,7 @@ contains
         call suite%addTest(TestMethod("sums_and_indices_have_limits", sums_and_indices_have_limits))
         call suite%addTest(TestMethod("names_and_units_have_limits", names_and_units_have_limits))
         call suite%addTest(TestMethod("sweeps_that_cannot_be", sweeps_that_cannot_be))
+        call suite%addTest(TestMethod("every_key_is_looked_at", every_key_is_looked_at))
         call suite%addTest(TestMethod("lines_of_a_sheet", lines_of_a_sheet))
         call suite%addTest(TestMethod("a_longer_chain_needs_a_start", a_longer_chain_needs_a_start))
     end function rare_refusals_suite
@@ -133,6 +135,37 @@ contains
         call swept(["theta = 0:1:3", "x     = 0:1:3"], "flip y", "a coordinate is needed, not "// &
                    "'y'; there are x, theta")
     end subroutine sweeps_that_cannot_be
+
+    subroutine every_key_is_looked_at()
+        !! Whatever a key of a scene or of a sweep takes, three hundred texts are too many, and
+        !! no key read behind it hides that. A scene does not yet know which columns there are.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(word_t) :: nothing(0)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text
+        character(*), parameter :: needed(*) = [character(20) :: "system = 'pendulum'", &
+            "dt = 0.1", "duration = 1", "q = 0.1"]
+        integer :: i, k, tried
+
+        tried = 0
+        do i = 1, size(entries)
+            if (all(entries(i)%group /= ["scene", "sweep"])) cycle
+            if (entries(i)%key == "columns" .or. entries(i)%key == "expect_NAME") cycle
+            text = "&scene"
+            do k = 1, size(needed)
+                if (index(needed(k), trim(entries(i)%key)//" = ") /= 1) text = text//" "//needed(k)
+            end do
+            if (entries(i)%group == "sweep") text = text//"/ &sweep"
+            text = text//" "//trim(entries(i)%key)//" = "//repeat("'!', ", 299)//"'!' /"
+            call parse_scene(text, "a.nml", nothing, scene, system, error)
+            call assertTrue(allocated(error), "refused: "//entries(i)%key)
+            if (.not. allocated(error)) cycle
+            call assertTrue(index(error%message, trim(entries(i)%key)) > 0, error%message)
+            tried = tried + 1
+        end do
+        call assertGreaterThan(tried, 25, message="keys")
+    end subroutine every_key_is_looked_at
 
     subroutine swept(over, keep, expected)
         !! A sweep of the pendulum on a cart.

@@ -152,6 +152,9 @@ contains
         call assertEqual(-9.81_dp/1.3_dp, modes%omega2(1), 1e-14_dp)
         call solve("cart_pendulum", [2.0_dp, 0.5_dp, 1.3_dp, 9.81_dp], [0.3_dp, pi], modes)
         call assertEqual([is_unstable, is_zero_mode], modes%label)
+        call solve("charged_particle", [1.3_dp, 0.7_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.3_dp, 0.4_dp, &
+                                        2.0_dp, 0.0_dp], [0.1_dp, 0.2_dp, 0.3_dp], modes)
+        call assertEqual([is_zero_mode, is_zero_mode, is_oscillation], modes%label)
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 3.0_dp, 9.81_dp], [0.0_dp], modes)
         call assertFalse(allocated(modes%analytic%elsewhere), "turned slowly: the bottom alone")
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [0.0_dp], modes)

@@ -16,10 +16,10 @@ module lagrangia_least_time
     public :: least_time_principle
 
     real(dp), parameter :: rounding = 1e-14_dp  !! lengths of a few metres, a few operations
-    type(flat_mirror_t), parameter :: flat = flat_mirror_t(a=1.0_dp, b=2.5_dp, d=3.0_dp)
+    type(flat_mirror_t), parameter :: flat = flat_mirror_t(a=1.2_dp, b=2.5_dp, d=3.0_dp)
     type(concave_mirror_t), parameter :: concave = concave_mirror_t(r=2.0_dp, s=1.5_dp)
     type(elliptic_mirror_t), parameter :: elliptic = elliptic_mirror_t(a=2.5_dp, b=2.0_dp)
-    type(surface_t), parameter :: glass = surface_t(a=1.0_dp, b=1.0_dp, d=2.0_dp, n1=1.0_dp, &
+    type(surface_t), parameter :: glass = surface_t(a=1.2_dp, b=0.8_dp, d=2.0_dp, n1=1.0_dp, &
                                                     n2=1.5_dp)
 
 contains
@@ -53,7 +53,7 @@ contains
         real(dp) :: x, u, path(72), c
         integer :: i
 
-        call report%section("Hero, flat mirror: points 1 m and 2.5 m before it, 3 m apart")
+        call report%section("Hero, flat mirror: points 1.2 m and 2.5 m before it, 3 m apart")
         call stationary_point(flat, 0.0_dp, flat%d, x, error)
         if (allocated(error)) return
         associate (a => flat%a, b => flat%b, d => flat%d)
@@ -100,7 +100,8 @@ contains
         real(dp) :: root, straight
 
         x = 0.0_dp
-        call report%section("Fermat, air to glass (n 1 to 1.5): 1 m above to 1 m below, 2 m apart")
+        call report%section("Fermat, air to glass (n 1 to 1.5): 1.2 m above to 0.8 m below, "// &
+                            "2 m apart")
         call stationary_point(glass, 0.0_dp, glass%d, x, error)
         if (allocated(error)) return
         snell%surface = glass
