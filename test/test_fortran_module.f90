@@ -29,19 +29,21 @@ contains
         call suite%addTest(TestMethod("long_lines_are_broken", long_lines_are_broken))
     end function fortran_module_suite
 
-    subroutine write_of(formulas, values, lines)
+    subroutine write_of(formulas, values, lines, start)
         !! The module of a system `own` with these formulas.
         character(*), intent(in) :: formulas, values
         type(fortran_lines_t), intent(out) :: lines
+        character(*), intent(in), optional :: start  !! `q`, for two coordinates if absent
         class(system_t), allocatable :: system
         type(scene_t) :: scene
         type(error_t), allocatable :: error
         type(word_t) :: none(0)
         character(:), allocatable :: text
 
-        text = "&scene system = 'own', dt = 0.1, duration = 1, q = 2*0.3"
-        if (index(formulas, "'z'") > 0) text = text//", 0.09"
-        text = text//" / &lagrangian "//formulas//" /"
+        text = "2*0.3"
+        if (present(start)) text = start
+        text = "&scene system = 'own', dt = 0.1, duration = 1, q = "//text//" / &lagrangian "// &
+               formulas//" /"
         if (values /= "") text = text//" &own "//values//" /"
         call parse_scene(text, "own.nml", none, scene, system, error)
         if (allocated(error)) call assertEqual("", error%message, "the scene")
@@ -160,7 +162,7 @@ contains
         call has(lines, "d%quantities(4:)%scale = 1.0_dp")
         call write_of("coordinates = 'x', 'y', 'z' parameters = 'm' V = '0' "// &
                       "T = 'm/2 (x_dot^2 + y_dot^2 + z_dot^2)' constraint = 'y = x', 'z = x^2'", &
-                      "m = 1.5", lines)
+                      "m = 1.5", lines, start="2*0.3, 0.09")
         call has(lines, "case (4:5)")
         call has(lines, "value = lambda(i - 3)")
     end subroutine constraints_as_procedures
