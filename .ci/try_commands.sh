@@ -259,6 +259,8 @@ check "report: scorecard, films, derivation, errata" eval 'for text in "<h2>Scor
 if command -v gnuplot >/dev/null; then
     check "report: pictures" [ "$(grep -c '<svg role=.img' "$work/film/report.html")" -ge 3 ]
 fi
+run report .ci/inputs/diverges.nml sphere --output "$work/film"
+check "report: a scene whose run fails says why, and the next one stands" eval '[ $status -eq 3 ] && grep -q "<p>the state is not finite at t = .*diverges.dat.partial" "$work/film/report.html" && grep -q "^sphere .* holds$" "$work/film/report.html"'
 (PATH=$work; exec "$program" report pendulum --quiet --output "$work/film") >"$work/out" 2>"$work/err"
 status=$?
 check "report: without gnuplot it says so" eval '[ $status -eq 0 ] && grep -q "no picture: .*gnuplot" "$work/film/report.html"'
@@ -406,6 +408,8 @@ check "errata: the parts, as text" eval 'grep -q "^slips of the lecture: 9$" "$w
 methods=$("$program" list methods | wc -l) # less boris, which wants a charge, and three without a step
 run bench energy --quick --json --output "$work/bench"
 check "bench energy: every method for one degree of freedom, and their energies, in some seconds" json '(lambda e: len({r["method"] for r in e}) == '"$((methods - 4))"' and all(0 < r["energy_error"] < 0.02 and 0 < r["seconds"] < 60 and r["steps"] == 20000 for r in e) and [r["energy_error"] < 1e-12 for r in e if r["method"] == "gauss16"] == [True])([r for r in d if r["table"] == "energy"])'
+run bench energy steps samples --quick --json --methods gauss16,rk4 --output "$work/bench"
+check "bench: of the methods asked for alone" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16"} for t in ("energy", "step_ns"))'
 run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 --output "$work/bench"
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'
 
@@ -423,8 +427,14 @@ done
 wide=$(df -k --output=avail "$work" | awk 'END { print int(sqrt(1.3*1024*$1/83)) + 1 }') # each takes 83 bytes
 run sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --output "$work/wide"
 check "sweep: more than the disk holds is not begun" eval '[ $status -eq 2 ] && [ ! -e "$work/wide" ] && grep -q "GB are free in .*; .--any-size. begins all the same$" "$work/err"'
-timeout --signal=INT 3 "$program" sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --any-size --output "$work/wide" >"$work/out" 2>"$work/err" </dev/null
+timeout 120 "$program" sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --any-size --output "$work/wide" >"$work/out" 2>"$work/err" </dev/null &
+for ((i = 0; i < 500; i++)); do
+    [ ! -e "$work/wide/pendulum_sweep.dat.part" ] || break
+    sleep 0.2
+done
 check "sweep: but by --any-size it is" test -e "$work/wide/pendulum_sweep.dat.part"
+kill $!
+wait $!
 rm -rf "$work/wide"
 run sweep pendulum --over q=0.5:1:3 --keep theta --threads 1000 --output "$work/sweep"
 check "sweep: it says how many processes there were" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 1 process, in lanes$" "$work/out"
@@ -556,6 +566,7 @@ run sweep "$work/by_tolerance.nml" --over theta1=0.45:0.55:40 --keep theta1 --ou
 check "sweep: it says that auto took dop853, in lanes" grep -q "^by_tolerance: 40 trajectories by dop853 in .* in lanes$" "$work/out"
 run bench sweep --quick --json --output "$work/bench"
 check "bench sweep: ours and GSL's, on one thread and on all, by rk4 to 1e-6, otherwise to 1e-9" json '(lambda r: {x["method"] for x in r} == {"rk4", "gsl_rk4", "gauss16", "dop853", "gsl_rk8pd", "lyapunov", "gsl_lyapunov"} and all(x["error"] < (1e-6 if "rk4" in x["method"] else 1e-6 if x["method"] == "gsl_lyapunov" else 1e-9) and x["us_each"] > 0 for x in r))([x for x in d if x["table"] == "sweep"])'
+check "bench sweep: over_gsl is GSL's time by ours" json '(lambda r, of: len(r) > 6 and all(abs(x["over_gsl"]*x["us_each"]/next(y["us_each"] for y in r if y["threads"] == x["threads"] and y["method"] == of.get(x["method"], x["method"])) - 1) < 1e-9 for x in r))([x for x in d if x["table"] == "sweep"], {"rk4": "gsl_rk4", "gauss16": "gsl_rk8pd", "dop853": "gsl_rk8pd", "lyapunov": "gsl_lyapunov"})'
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
 check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
 run sweep pendulum --over theta=0:1:1000000000000 --keep theta --output "$work/sweep"
@@ -1070,6 +1081,19 @@ run run bouncing_ball --set scene%period_of=y --output "$work/said"
 check "flights that become shorter have no period" eval '[ $status -eq 0 ] && grep -q "^    no period: from one lower turning point to the next it is " "$work/out" && ! grep -q "measured" "$work/out"'
 run run pendulum --set scene%period_of=theta --output "$work/said"
 check "a swing has one" grep -q '^    period  *[0-9.]* s  *measured$' "$work/out"
+
+# Differences, errors and drifts have no sign
+for words in "modes hanging_chain --set hanging_chain%n=13" "modes double_pendulum" "principle action" "principle gauss-hertz" "principle least-time" check "run pendulum sphere oscillator cart_pendulum --error-estimate --output $work/o"; do
+    # shellcheck disable=SC2086
+    run $words
+    case $words in
+        modes*) signed='^.{95}-[0-9]' ;;
+        principle*) signed=' -[0-9.]+(E[-+][0-9]+)? +[^ ]+ (holds|differs)$' ;;
+        check) signed=' -[0-9.]+E[^ ]+ +.*(holds|FAILS)$' ;;
+        *) signed='^[a-z_]+ +[a-z0-9]+ .* -[0-9].*(holds|-)$' ;;
+    esac
+    check "${words%% *}: no column of differences has a sign" eval '[ $status -eq 0 ] && [ "$(grep -cE "(holds|oscillation|-)\$" "$work/out")" -gt 1 ] && ! grep -E -- "$signed" "$work/out"'
+done
 
 check "no line that is printed ends with a blank: $(sort -u "$work/blanks" 2>/dev/null | head -n 3 | tr '\n' ';')" [ ! -s "$work/blanks" ]
 

@@ -162,11 +162,14 @@ contains
 
     subroutine modes_decay()
         !! m = 1: k = 25, b = 6 decays at 3 and turns at 4; k = 4, b = 5 decays at 1 and at 4; a
-        !! constant force of 2 N stretches k = 8 by 0.25 m.
+        !! constant force of 2 N stretches k = 8 by 0.25 m. At critical damping, b = 2 sqrt(k m) but
+        !! for rounding, nothing oscillates, and both decay at b/(2 m).
         type(oscillator_t) :: system
         type(modes_t) :: modes
         complex(dp), allocatable :: lambda(:)
         type(error_t), allocatable :: error
+        real(dp) :: k
+        integer :: i
 
         call system%configure([1.0_dp, 25.0_dp, 6.0_dp], error)
         call find_modes(system, [0.0_dp], .false., modes, error)
@@ -180,6 +183,14 @@ contains
         call damped_rates(system, modes, lambda, error)
         call assertEqual([-1.0_dp, -4.0_dp], real(lambda), 1e-14_dp, "over")
         call assertEqual([0.0_dp, 0.0_dp], aimag(lambda), 0.0_dp, "no oscillation")
+        do i = 1, 100
+            k = 0.37_dp*i
+            call system%configure([1.1_dp, k, 2.0_dp*sqrt(1.1_dp*k)], error)
+            call find_modes(system, [0.0_dp], .false., modes, error)
+            call damped_rates(system, modes, lambda, error)
+            call assertEqual(-sqrt(k/1.1_dp)*[1, 1], real(lambda), 1e-14_dp*k, "critical")
+            call assertEqual([0.0_dp, 0.0_dp], aimag(lambda), 0.0_dp, "no oscillation")
+        end do
         call system%configure([1.0_dp, 8.0_dp, 0.0_dp, 2.0_dp], error)
         call find_modes(system, [0.0_dp], .false., modes, error)
         call assertEqual([0.25_dp], modes%at, 1e-14_dp, "stretched")

@@ -178,17 +178,29 @@ contains
         call assertEqual("        x = "//repeat("abcdefghij*", 4)//"klm &", lines%list(1)%text)
         call assertEqual("            + "//repeat("nop(q, r)*", 5)//"s", lines%list(2)%text)
         call assertEqual(2, lines%longest, "lines of a statement")
+        deallocate (lines%list)
+        call lines%add(8, "call f("//repeat("a", 40)//", "//repeat("b", 20)//", c + g(d, "// &
+                       repeat("e", 40)//"))")
+        call assertEqual("        call f("//repeat("a", 40)//", "//repeat("b", 20)//", c &", &
+                         lines%list(1)%text)
+        call assertEqual("            + g(d, "//repeat("e", 40)//"))", lines%list(2)%text)
+        deallocate (lines%list)
+        call lines%add(8, "call f("//repeat("a", 40)//", "//repeat("b", 20)//", g(d * h, "// &
+                       repeat("e", 40)//"))")
+        call assertEqual("        call f("//repeat("a", 40)//", "//repeat("b", 20)//", &", &
+                         lines%list(1)%text, "behind a comma, not before a product deeper within")
+        deallocate (lines%list)
         call assertEqual('"say ""so"""', literal('say "so"'))
         call assertEqual('"'//words//" "//words//'"', literal(words//" "//words))
         call assertEqual('"'//words//" "//words//'"// " '//words//'"', &
                          literal(words//" "//words//" "//words))
         call lines%add(4, "!! "//repeat(words//" ", 5))
-        call assertEqual("    !! "//repeat(words//" ", 3)//"twenty-five", lines%list(3)%text)
-        call assertEqual("    !! characters, a "//words, lines%list(4)%text)
+        call assertEqual("    !! "//repeat(words//" ", 3)//"twenty-five", lines%list(1)%text)
+        call assertEqual("    !! characters, a "//words, lines%list(2)%text)
         call lines%assign(0, "x", repeat("a(b + c) - ", 900)//"d")
-        call assertEqual("x = a(b + c) - a(b + c)", lines%list(5)%text(:23))
+        call assertEqual("x = a(b + c) - a(b + c)", lines%list(3)%text(:23))
         all_of_them = ""
-        do i = 5, size(lines%list)
+        do i = 3, size(lines%list)
             line = trim(adjustl(lines%list(i)%text))
             if (line(len(line):) == "&") line = line(:len(line) - 1)
             all_of_them = all_of_them//trim(line)//" "

@@ -25,6 +25,8 @@ contains
                                       two_coordinates_have_a_closed_form, setUp=restart_random))
         call suite%addTest(TestMethod("invariants_of_four_coordinates", &
                                       invariants_of_four_coordinates, setUp=restart_random))
+        call suite%addTest(TestMethod("two_modes_of_one_shape", two_modes_of_one_shape, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("zero_modes_stay_zero", zero_modes_stay_zero))
         call suite%addTest(TestMethod("what_is_no_g_is_refused", what_is_no_g_is_refused))
     end function gyroscopic_suite
@@ -146,6 +148,33 @@ contains
         end do
         call assertLessThan(worst, 1e-10_dp, message="invariants")
     end subroutine invariants_of_four_coordinates
+
+    subroutine two_modes_of_one_shape()
+        !! A free particle in a rotating frame, beside an oscillator: \(\omega = W\) twice, though
+        !! rounding splits them by its root; two oscillators that are truly as near stay apart.
+        complex(dp), allocatable :: lambda(:)
+        real(dp) :: g(3, 3), m, w, third
+        integer :: i
+
+        do i = 1, 200
+            m = 10.0_dp**uniform(-2.0_dp, 2.0_dp)
+            w = 10.0_dp**uniform(-2.0_dp, 2.0_dp)
+            third = w*10.0_dp**uniform(-3.0_dp, 3.0_dp)
+            g = 0.0_dp
+            g(1, 2) = -2.0_dp*m*w
+            call solve([-m*w**2, -m*w**2, third**2], g, [m, m, 1.0_dp], lambda)
+            call assertEqual(2, count(abs(abs(lambda) - w) <= 1e-14_dp*max(w, third)), &
+                             "the rotation, twice")
+            call assertEqual(1, count(abs(abs(lambda) - third) <= 1e-14_dp*max(w, third)), &
+                             "the oscillator")
+        end do
+        g = 0.0_dp
+        g(1, 2) = 1.0_dp
+        call solve([4.0_dp, 1.0_dp, (1.0_dp + 2e-8_dp)*4.0_dp], 0.0_dp*g, spread(1.0_dp, 1, 3), &
+                   lambda)
+        call assertEqual(2.0_dp*sqrt(1.0_dp + 2e-8_dp), aimag(lambda(3)), 1e-15_dp, "the faster")
+        call assertEqual(2.0_dp, aimag(lambda(2)), 1e-15_dp, "the slower")
+    end subroutine two_modes_of_one_shape
 
     subroutine zero_modes_stay_zero()
         !! A free charge in a field along z circles, or stays where it is, or moves along z.

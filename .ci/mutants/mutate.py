@@ -375,7 +375,7 @@ def noticed_by_users(program, root, work, limits, source, gate):
                     *(["python3" if script.endswith(".py") else "bash", ".ci/" + script, program]
                       for script in [*scripts, *last]),
                     *([[program, "stress", "--quiet"]] if gate else [])):
-        status, text = run(command, root, limits)
+        status, text = run(command, root, limits, stop_at="FAILED")
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
             name = " ".join(command[1:2]) if command[1][0] != "-" else "the main job"

@@ -1,6 +1,6 @@
 module lagrangia_mode_choice
     !! Which mode a statement speaks of, or a wrong one may speak of.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
@@ -30,12 +30,13 @@ contains
         n = size(samples%omega2, 2)/2
         speaks_of_place = any([(residual%depends_on(samples%place(i)), i=1, size(samples%place))])
         if (speaks_of_place) call put_places(samples, samples%equilibrium, values)
-        call choose_about(samples%omega2(:, :n), residual, samples, values, right_one, found)
+        call choose_about(samples%omega2(:, :n), samples%equilibrium, residual, samples, values, &
+                          right_one, found)
         if (right_one) return
         first_choice = values
         if (speaks_of_place) call put_places(samples, samples%other_equilibrium, values)
-        call choose_about(samples%omega2(:, n + 1:), residual, samples, values, right_one, &
-                          found_one)
+        call choose_about(samples%omega2(:, n + 1:), samples%other_equilibrium, residual, samples, &
+                          values, right_one, found_one)
         if (found .and. .not. right_one) values = first_choice
         found = found .or. found_one
     end subroutine choose_modes
@@ -99,17 +100,20 @@ contains
         end do
     end subroutine put_mode
 
-    subroutine choose_about(omega2, residual, samples, values, right_one, found)
+    subroutine choose_about(omega2, place, residual, samples, values, right_one, found)
         !! About one equilibrium; no number for draws without an oscillation. Two draws must match.
-        real(dp), intent(in) :: omega2(:, :)  !! (draws, modes)
+        real(dp), intent(in) :: omega2(:, :)  !! (draws, modes), 0 where there is none
+        real(dp), intent(in) :: place(:, :)   !! the equilibrium, (coordinates, draws); NaN: none
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         real(dp), intent(inout) :: values(:, :)
         logical, intent(out) :: right_one, found
         integer :: draw, first, k, matches
-        logical :: yes, judged, needs_root
+        logical :: yes, judged, needs_root, of_zero
 
         needs_root = residual%depends_on(samples%frequency)
+        ! `omega^2 = 0` is said of a mode that does not oscillate, a product that is zero is not
+        of_zero = residual%count <= 3 .and. samples%system%constraints == 0
         found = .false.
         right_one = .true.
         matches = 0
@@ -118,8 +122,9 @@ contains
             associate (rows => values(first + 1:first + states, :))
                 yes = .false.
                 do k = size(omega2, 2), 1, -1
-                    if (omega2(draw, k) <= 0.0_dp .and. needs_root) cycle
-                    if (is_zero(omega2(draw, k))) cycle
+                    if (is_zero(omega2(draw, k)) .and. .not. (of_zero .and. &
+                        all(ieee_is_finite(place(:, draw))))) cycle
+                    if (omega2(draw, k) < 0.0_dp .and. needs_root) cycle
                     found = .true.
                     rows(:, samples%frequency) = sqrt(abs(omega2(draw, k)))
                     rows(:, samples%frequency + 1) = omega2(draw, k)
@@ -137,6 +142,6 @@ contains
             end associate
         end do
         right_one = right_one .and. matches >= 2
-        found = found .and. any(values(:, samples%frequency) > 0.0_dp)  ! no NaN everywhere
+        found = found .and. any(values(:, samples%frequency) >= 0.0_dp)  ! no NaN everywhere
     end subroutine choose_about
 end module lagrangia_mode_choice

@@ -3,6 +3,7 @@ module lagrangia_motion_samples
     !! states at random, with parameters at random, as the equations of motion have it.
     use lagrangia_damped_rates, only: damping_matrix
     use lagrangia_description, only: default_values, description_t, name_length, value_names
+    use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t, fail
     use lagrangia_followed_letters, only: follow_elsewhere, follow_letters
     use lagrangia_gauss_principle, only: masses_of, place_points
@@ -12,7 +13,7 @@ module lagrangia_motion_samples
     use lagrangia_mode_samples, only: add_modes, put_places, stable_somewhere
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_number_class, only: all_finite, is_nonzero
-    use lagrangia_parameter_choice, only: keep, spread_values
+    use lagrangia_parameter_choice, only: keep, occurs, spread_values
     use lagrangia_parameter_conditions, only: condition_t, satisfy
     use lagrangia_random_draws, only: random_t
     use lagrangia_sample_names, only: axes, draws, name_symbols, role_acceleration, &
@@ -79,7 +80,7 @@ contains
         if (allocated(error)) return
         call keep(d, said, settings, fixed, given, samples%kept)
         call take_energies(system, fixed, given, d)
-        damped = is_damped(system, d, fixed, given)
+        damped = is_damped(system, d, fixed, given, said)
         if (damped .and. allocated(d%letters)) then  ! they may be those of no drag, or of another
             d%letters = pack(d%letters, d%letters%name /= "omega" .and. d%letters%name /= "gamma")
         end if
@@ -142,22 +143,24 @@ contains
         d%quantities%formula = now%quantities%formula
     end subroutine take_energies
 
-    function is_damped(system, d, fixed, given) result(yes)
+    function is_damped(system, d, fixed, given, said) result(yes)
         !! Has the system one coordinate, and at rest a drag that is as the velocity, with
-        !! parameters at random?
+        !! parameters at random? Of \(-b\dot x-c\dot x^3\) the first term is the drag of small
+        !! oscillations, if there are any: of \(-\mu mg\tanh(\dot x/v_0)\) it would stop
+        !! them, but \(\omega\) is that of dry friction; unless the statements are about gamma.
         class(system_t), intent(in) :: system
         type(description_t), intent(in) :: d
         logical, intent(in) :: fixed(:)
         real(dp), intent(in) :: given(:)
+        character(*), intent(in) :: said  !! all statements
         logical :: yes
         class(system_t), allocatable :: drawn
-        type(error_t), allocatable :: error
-        type(modes_t) :: modes
         type(random_t) :: random
-        type(hyperdual_t) :: still(1), moving(1)
-        real(dp) :: drag(1, 1), kept(size(given))
+        real(dp) :: kept(size(given)), slope, rates(2)
+        type(error_t), allocatable :: error
         real(dp), allocatable :: values(:)
         logical, allocatable :: drawn_value(:)
+        logical :: linear
 
         yes = .false.
         if (system%ndof /= 1 .or. system%constraints > 0) return
@@ -166,18 +169,40 @@ contains
         call spread_values(d, drawn_value, fixed, kept, random)
         call random%parameters(drawn, .false., values, error, fixed .or. drawn_value, kept)
         if (allocated(error)) return
-        if (.not. drawn%nonconservative) return
-        call find_modes(drawn, likely_equilibrium(drawn), .false., modes, error)
-        if (allocated(error)) return
-        call damping_matrix(drawn, modes%at, drag)
-        yes = is_nonzero(drag(1, 1))
-        if (.not. yes) return
-        ! of dry friction, say, the first term is no decay rate
-        call drawn%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t()], still)
-        call drawn%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t(1.0_dp)], &
-                                      moving)
-        yes = abs(moving(1)%re - still(1)%re + drag(1, 1)) <= 1e-9_dp*abs(drag(1, 1))
+        call look_at_rest(drawn, slope, rates, linear)
+        yes = is_nonzero(slope)
+        if (.not. yes .or. linear) return
+        call look_at_rest(system, slope, rates, linear)
+        yes = rates(1) < rates(2) .or. occurs(said, "gamma") .or. occurs(said, "Gamma")
     end function is_damped
+
+    subroutine look_at_rest(system, slope, rates, linear)
+        !! How a force beside L begins with the velocity at an equilibrium.
+        class(system_t), intent(in) :: system  !! of one coordinate
+        real(dp), intent(out) :: slope         !! \(C = -\partial Q/\partial\dot q\), or 0
+        real(dp), intent(out) :: rates(2)      !! \((C/2M)^2\) and \(K/M\)
+        logical, intent(out) :: linear         !! Q is as the velocity
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+        type(hyperdual_t) :: still(1), moving(1)
+        real(dp), dimension(1, 1) :: beside, drag
+
+        slope = 0.0_dp
+        rates = 0.0_dp
+        linear = .true.
+        if (.not. system%nonconservative) return
+        call find_modes(system, likely_equilibrium(system), .false., modes, error)
+        if (allocated(error)) return
+        call damping_matrix(system, modes%at, drag)
+        call stiffness_beside(system, modes%at, beside)
+        slope = drag(1, 1)
+        rates = [(slope/(2.0_dp*modes%mass(1, 1)))**2, &
+                 (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)]
+        call system%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t()], still)
+        call system%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t(1.0_dp)], &
+                                       moving)
+        linear = abs(moving(1)%re - still(1)%re + slope) <= 1e-9_dp*abs(slope)
+    end subroutine look_at_rest
 
     subroutine add_states(samples, system, d, draw, error)
         !! Fill the rows behind the first `draw` draws.

@@ -41,20 +41,19 @@ contains
         logical, intent(in) :: explain                  !! say what is wrong
         type(judgement_t), intent(inout) :: judgement   !! of it, with the residual
         real(dp), parameter :: places(2) = [0.0_dp, acos(-1.0_dp)]
-        real(dp), allocatable :: shown(:, :), values(:, :), wrong_shown(:, :), wrong_values(:, :)
-        logical :: judged, right_one, stays
+        real(dp), allocatable :: shown(:, :), values(:, :), wrong_shown(:, :)
+        logical :: judged, right_one, stays, wrong_at(size(places))
         integer :: k
 
+        wrong_at = .false.
         do k = 1, size(places)
             call move_a_little(samples, places(k), values, shown, stays)
             if (.not. stays) cycle
             call holds(judgement%residual, values, right_one, judged)
             if (judged .and. right_one) return
-            if (.not. judged .or. allocated(wrong_values)) cycle
-            wrong_values = values
-            wrong_shown = shown
+            wrong_at(k) = judged
         end do
-        if (.not. allocated(wrong_values)) then
+        if (.not. any(wrong_at)) then
             judgement%verdict = is_unreadable
             judgement%remark = "the time in a statement behind 'small:', and no place at which "// &
                                "nothing moves at all times"
@@ -62,11 +61,18 @@ contains
         end if
         judgement%verdict = is_wrong
         if (.not. explain) return
-        ! where all is linear, and no power hides a term
-        call explain_slip(judgement%residual, first, samples, wrong_shown, library, &
-                          judgement%explanation)
-        if (judgement%explanation%is_empty()) call explain_slip( &
-            judgement%residual, first, samples, wrong_values, library, judgement%explanation)
+        do k = 1, size(places)
+            if (.not. wrong_at(k) .or. .not. judgement%explanation%is_empty()) cycle
+            call move_a_little(samples, places(k), values, shown, stays)
+            ! where all is linear, and no power hides a term
+            call explain_slip(judgement%residual, first, samples, shown, library, &
+                              judgement%explanation)
+            if (judgement%explanation%is_empty()) call explain_slip( &
+                judgement%residual, first, samples, values, library, judgement%explanation)
+            if (.not. judgement%explanation%is_empty() .or. k == findloc(wrong_at, .true., 1)) then
+                wrong_shown = shown
+            end if
+        end do
         call judgement%say_why()
         call put_example(left, right, samples, wrong_shown, judgement%example)
     end subroutine judge_driven

@@ -25,7 +25,7 @@ contains
         !! the outermost. Where \(\lambda = i\omega\), \(\omega\) is then the root of \(\omega^2 -
         !! (iu^\dagger Gu)\omega - u^\dagger Ku = 0\), stationary in \(u\). A singular K has no
         !! inverse: beside its zero modes the slow ones have an error of \(\epsilon\) times the
-        !! fastest.
+        !! fastest. Two modes of one shape have the mean of their eigenvalues, see `join_twins`.
         !!
         !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235, sec. 3; LAPACK `dgeev`.
         real(dp), intent(in) :: stiffness(:, :)               !! \(K\), symmetric, (n, n)
@@ -38,6 +38,7 @@ contains
         complex(dp), dimension(size(stiffness, 1)) :: other
         complex(dp), dimension(size(stiffness, 1), size(stiffness, 1)) :: other_modes
         real(dp), dimension(size(stiffness, 1), size(stiffness, 1)) :: coupling
+        logical :: joined(size(stiffness, 1))
         real(dp) :: scale
         integer :: n, k, fast
 
@@ -61,10 +62,12 @@ contains
             deallocate (lambda, modes)
             return
         end if
+        call join_twins(lambda, modes, joined)
         do k = 1, n
             scale = merge(abs(lambda(1)), abs(lambda(k))/abs(lambda(n))*abs(lambda(k)), k <= fast)
-            if (abs(real(lambda(k))) <= blur*scale) call refine(omega2, coupling, modes(:, k), &
-                                                                lambda(k))
+            if (abs(real(lambda(k))) <= blur*scale .and. .not. joined(k)) then
+                call refine(omega2, coupling, modes(:, k), lambda(k))
+            end if
             modes(:, k) = matmul(shapes, modes(:, k))
             call normalise(inertia, modes(:, k))
         end do
@@ -179,6 +182,34 @@ contains
             chosen(k) = j
         end do
     end subroutine one_of_each_pair
+
+    pure subroutine join_twins(lambda, modes, joined)
+        !! A double eigenvalue with one shape only is split by the root of rounding,
+        !! \(\lambda\pm\delta\) with \(|\delta|^2\sim\epsilon\,|\lambda|\max|\lambda|\); the mean
+        !! has an error of \(\epsilon\) again. Two that are truly as near are not better known one
+        !! by one.
+        complex(dp), intent(inout) :: lambda(:)  !! of both the mean
+        complex(dp), intent(in) :: modes(:, :)   !! a column each
+        logical, intent(out) :: joined(:)        !! that this was done
+        real(dp), parameter :: alike = 1e-6_dp
+        real(dp) :: near
+        integer :: j, k
+
+        joined = .false.
+        do j = 2, size(lambda)
+            near = 16.0_dp*sqrt(epsilon(near)*abs(lambda(j))*maxval(abs(lambda)))
+            do k = 1, j - 1
+                if (abs(lambda(j) - lambda(k)) > near) cycle
+                if (is_zero(abs(lambda(j))) .or. joined(k)) cycle
+                associate (u => modes(:, k), w => modes(:, j))
+                    if (abs(dot_product(u, w)) < (1.0_dp - alike)*norm2(abs(u))*norm2(abs(w))) cycle
+                end associate
+                lambda([j, k]) = 0.5_dp*(lambda(j) + lambda(k))
+                joined([j, k]) = .true.
+                exit
+            end do
+        end do
+    end subroutine join_twins
 
     pure subroutine normalise(inertia, u)
         !! \(u^\dagger M u = 1\), the first of the largest components real and positive.

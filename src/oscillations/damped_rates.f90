@@ -35,25 +35,34 @@ contains
         !! The exponents of \(e^{\lambda t}\), those with \(\mathrm{Im}\,\lambda\ge0\), the fastest
         !! oscillation last, of two alike but for rounding the one that grows first:
         !! \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\) the frequency.
-        !! Slow ones are as right as fast ones; two that nearly meet, at critical damping, are right
-        !! to the root of epsilon.
+        !! Slow ones are as right as fast ones. At critical damping two meet, and rounding splits
+        !! them by its root: where that may be all that parts those of one coordinate, both are
+        !! \(-C/(2M)\); of several coordinates they are right to that root.
         class(system_t), intent(in) :: system                 !! with its parameters
         type(modes_t), intent(in) :: modes                    !! without damping, solved
         complex(dp), allocatable, intent(out) :: lambda(:)    !! 1/s
         type(error_t), allocatable, intent(out) :: error      !! status 4: LAPACK
-        real(dp), dimension(size(modes%at), size(modes%at)) :: turning, springs
+        real(dp), dimension(size(modes%at), size(modes%at)) :: springs
+        real(dp), allocatable :: mass(:, :), turning(:, :)  !! within the constraints
         complex(dp), allocatable :: all_lambda(:)
         real(dp), allocatable :: rank(:)
         logical, allocatable :: left(:)
-        real(dp), parameter :: rounding = 1e-9_dp
+        real(dp), parameter :: rounding = 1e-9_dp, split = 8.0_dp*sqrt(epsilon(1.0_dp))
         integer :: j
 
+        allocate (turning(size(modes%at), size(modes%at)))
         call damping_matrix(system, modes%at, turning)
         call stiffness_beside(system, modes%at, springs)
-        call quadratic_eigenvalues(modes%allowed(modes%mass), &
-                                   modes%allowed(turning + modes%gyroscopic), &
-                                   modes%allowed(springs + modes%stiffness), all_lambda, error)
+        mass = modes%allowed(modes%mass)
+        turning = modes%allowed(turning + modes%gyroscopic)
+        call quadratic_eigenvalues(mass, turning, modes%allowed(springs + modes%stiffness), &
+                                   all_lambda, error)
         if (allocated(error)) return
+        if (size(all_lambda) == 2) then
+            if (abs(all_lambda(2) - all_lambda(1)) <= split*abs(all_lambda(1))) then
+                all_lambda = -turning(1, 1)/(2.0_dp*mass(1, 1))
+            end if
+        end if
         allocate (left, source=aimag(all_lambda) >= 0.0_dp)
         allocate (lambda(0))
         do while (any(left))
