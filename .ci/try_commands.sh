@@ -429,10 +429,18 @@ run sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --output "
 check "sweep: more than the disk holds is not begun" eval '[ $status -eq 2 ] && [ ! -e "$work/wide" ] && grep -q "GB are free in .*; .--any-size. begins all the same$" "$work/err"'
 timeout 120 "$program" sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --any-size --output "$work/wide" >"$work/out" 2>"$work/err" </dev/null &
 for ((i = 0; i < 500; i++)); do
-    [ ! -e "$work/wide/pendulum_sweep.dat.part" ] || break
+    [ "$(stat -c %s "$work/wide/pendulum_sweep.dat.part" 2>/dev/null || echo 0)" -lt 9000 ] || break
     sleep 0.2
 done
 check "sweep: but by --any-size it is" test -e "$work/wide/pendulum_sweep.dat.part"
+kill $!
+wait $!
+timeout 120 "$program" sweep pendulum --over q=0:1:$wide --over v=0:1:$wide --keep theta --resume --output "$work/wide" >"$work/out" 2>"$work/resumed" </dev/null &
+for ((i = 0; i < 500; i++)); do
+    grep -q "takes about\|are free\|part" "$work/resumed" 2>/dev/null && break
+    sleep 0.2
+done
+check "sweep: and it goes on by --resume" grep -q "takes about" "$work/resumed"
 kill $!
 wait $!
 rm -rf "$work/wide"

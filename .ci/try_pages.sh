@@ -276,6 +276,7 @@ written '*.gp' sweep .ci/inputs/height.nml --over h0=-5:5:2 --over height_dot=-1
 written '*.gp' run .ci/inputs/two_springs.nml
 written '*.gp' run .ci/inputs/sea.nml --set scene%columns=t,x,y_drift_2,energy_drift --set scene%plot=y_drift_2+energy_drift
 files run .ci/inputs/kick.nml
+page claims check .ci/inputs/force_alone.nml
 page claims check .ci/inputs/kick.nml
 page claims check .ci/inputs/horizon.nml
 written '*.gp' run pendulum --set scene%plot='theta+energy_drift' --set scene%columns=t,theta,energy_drift --set scene%dt=0.05 --set scene%duration=2000 --set scene%every=1

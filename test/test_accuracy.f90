@@ -118,6 +118,10 @@ contains
                          16.0_dp, .true.), 1e-12_dp, "a tolerance")
         call assertEqual([72.0_dp, 16.0_dp], agreement(first, second, [0.0_dp, -2.0_dp], other, &
                          most, 16.0_dp, .true.), 1e-12_dp, "four times the other end's distance")
+        call assertEqual([64.0_dp, 8.0_dp], agreement(-first, -second, -other, -other, most, &
+                         16.0_dp, .false.), 1e-12_dp, "the same of the other sign")
+        call assertEqual([72.0_dp, 16.0_dp], agreement(-first, -second, [0.0_dp, 2.0_dp], -other, &
+                         most, 16.0_dp, .true.), 1e-12_dp, "and of the other end")
     end subroutine the_latest_change_counts
 
     subroutine check_method(name, adaptive, shortest, longest, only_digits, systems, draws)
