@@ -408,7 +408,7 @@ check "errata: the parts, as text" eval 'grep -q "^slips of the lecture: 9$" "$w
 methods=$("$program" list methods | wc -l) # less boris, which wants a charge, and three without a step
 run bench energy --quick --json --output "$work/bench"
 check "bench energy: every method for one degree of freedom, and their energies, in some seconds" json '(lambda e: len({r["method"] for r in e}) == '"$((methods - 4))"' and all(0 < r["energy_error"] < 0.02 and 0 < r["seconds"] < 60 and r["steps"] == 20000 for r in e) and [r["energy_error"] < 1e-12 for r in e if r["method"] == "gauss16"] == [True])([r for r in d if r["table"] == "energy"])'
-run bench energy steps samples --quick --json --methods gauss16,rk4 --output "$work/bench"
+run bench energy steps --quick --json --methods gauss16,rk4 --output "$work/bench"
 check "bench: of the methods asked for alone" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16"} for t in ("energy", "step_ns"))'
 run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 --output "$work/bench"
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'

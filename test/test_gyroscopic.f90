@@ -169,9 +169,7 @@ contains
                              "the oscillator")
         end do
         g = 0.0_dp
-        g(1, 2) = 1.0_dp
-        call solve([4.0_dp, 1.0_dp, (1.0_dp + 2e-8_dp)*4.0_dp], 0.0_dp*g, spread(1.0_dp, 1, 3), &
-                   lambda)
+        call solve([4.0_dp, 1.0_dp, (1.0_dp + 2e-8_dp)*4.0_dp], g, spread(1.0_dp, 1, 3), lambda)
         call assertEqual(2.0_dp*sqrt(1.0_dp + 2e-8_dp), aimag(lambda(3)), 1e-15_dp, "the faster")
         call assertEqual(2.0_dp, aimag(lambda(2)), 1e-15_dp, "the slower")
     end subroutine two_modes_of_one_shape
