@@ -112,7 +112,7 @@ contains
         do i = 1, size(x)
             row_size(i) = row_size(i) + term_size(rows(i, :))
         end do
-        call size_of_solution(matrix, row_size, unknowns, error)
+        call size_of_solution(matrix, n, row_size, unknowns, error)
         if (allocated(error)) return
         allocate (acceleration_size(n), reaction_size(size(x) - n), residual_size(size(x) - n))
         reaction_size = unknowns(n + 1:)

@@ -8,7 +8,7 @@ module lagrangia_equation_terms
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
-    use lagrangia_lapack, only: solve_linear
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -131,7 +131,7 @@ contains
         do j = 1, all
             right = 0.0_dp
             right(j) = 1.0_dp
-            call solve_linear(matrix, right, solution, error)
+            call solve_saddle_point(matrix, n, right, solution, error)
             if (allocated(error)) return
             if (j > n) then
                 terms(:, 1, n + 1) = terms(:, 1, n + 1) - solution(:n) &

@@ -14,7 +14,7 @@ module lagrangia_gauss_principle
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -180,7 +180,7 @@ contains
         real(dp) :: matrix(size(solution), size(solution))
 
         call gauss_equations(self, matrix, right)
-        call solve_linear(matrix, right, solution, error)
+        call solve_saddle_point(matrix, size(self%x), right, solution, error)
         if (allocated(error)) return
         allocate (self%acceleration(size(self%x)), self%reaction(size(self%right)))
         self%acceleration = solution(:size(self%x))

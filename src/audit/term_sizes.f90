@@ -11,8 +11,8 @@ module lagrangia_term_sizes
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, equations_of_motion, expand_lagrangian
-    use lagrangia_lapack, only: solve_linear
     use lagrangia_random_draws, only: random_t
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_box_t, system_t
     implicit none (type, external)
     private
@@ -97,28 +97,31 @@ contains
         size = abs(values(0)) + 2.0_dp/neighbours*sum(abs(values(1:) - values(0)))/step
     end function term_size
 
-    pure subroutine size_of_solution(matrix, size_of_rows, size_of_unknowns, error)
+    pure subroutine size_of_solution(matrix, n, size_of_rows, size_of_unknowns, error)
         !! \(|K^{-1}|\,w\): what errors of the size \(w\) in the rows of \(Kx = r\) do to the
         !! unknowns.
         !!
         !! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., sec. 7.2.
-        real(dp), intent(in) :: matrix(:, :), size_of_rows(:)  !! \(K\), (n, n); \(w\), (n)
-        real(dp), intent(out) :: size_of_unknowns(:)           !! (n)
+        real(dp), intent(in) :: matrix(:, :)           !! \(K\), (n + k, n + k), k constraints
+        integer, intent(in) :: n                       !! size of the mass matrix in it
+        real(dp), intent(in) :: size_of_rows(:)        !! \(w\), (n + k)
+        real(dp), intent(out) :: size_of_unknowns(:)   !! (n + k)
         type(error_t), allocatable, intent(out) :: error       !! the matrix is singular
-        real(dp), dimension(size(size_of_rows)) :: right, solution
+        real(dp), dimension(size(size_of_rows)) :: right, solution, unit
         integer :: j
 
         size_of_unknowns = 0.0_dp
         do j = 1, size(right)
             right = 0.0_dp
             right(j) = size_of_rows(j)
-            call solve_linear(matrix, right, solution, error)
+            call solve_saddle_point(matrix, n, right, solution, error, unit)
             if (allocated(error)) return
             size_of_unknowns = size_of_unknowns + abs(solution)
         end do
         ! refined once, an unknown that should be zero is an epsilon squared of the others, times
-        ! what the elimination made of it
-        size_of_unknowns = size_of_unknowns + 1e4_dp*epsilon(1.0_dp)*maxval(size_of_unknowns)
+        ! what the elimination made of it, in the units that it had there
+        size_of_unknowns = size_of_unknowns &
+                           + 1e4_dp*epsilon(1.0_dp)*unit*maxval(size_of_unknowns/unit)
     end subroutine size_of_solution
 
     subroutine solve_motion(nearby, motion, error)
@@ -142,7 +145,7 @@ contains
                                      nearby%v(:, k), nearby%terms(k), near, right)
             if (k == 0) then
                 matrix = near
-                call solve_linear(matrix, right, x, error)
+                call solve_saddle_point(matrix, n, right, x, error)
                 if (allocated(error)) return
                 row_size = matmul(abs(matrix), abs(x)) + abs(right)
             end if
@@ -155,7 +158,7 @@ contains
         do i = 1, all
             row_size(i) = row_size(i) + term_size(rows(i, :))
         end do
-        call size_of_solution(matrix, row_size, unknowns, error)
+        call size_of_solution(matrix, n, row_size, unknowns, error)
         if (allocated(error)) return
         allocate (motion%accelerations(n), motion%size(n), motion%equation_size(n))
         allocate (motion%multipliers(all - n), motion%multiplier_size(all - n))

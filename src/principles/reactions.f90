@@ -8,10 +8,11 @@ module lagrangia_reactions
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_principle, only: cartesian_t, gauss_equations, least_constraint
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: matrix_rank, solve_linear
+    use lagrangia_lapack, only: matrix_rank
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_report, only: report_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_t
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
@@ -222,7 +223,7 @@ contains
             scaled%slope = factor*c%slope
             scaled%right = factor*c%right
             call gauss_equations(scaled, matrix, right)
-            call solve_linear(matrix, right, solution, error)
+            call solve_saddle_point(matrix, 3, right, solution, error)
         end subroutine solve_with
     end subroutine twice_the_same
 

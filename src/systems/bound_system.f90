@@ -12,6 +12,7 @@ module lagrangia_bound_system
                                   expand_lagrangian
     use lagrangia_lapack, only: matrix_rank, solve_linear
     use lagrangia_mass_matrix, only: list_of
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: all_velocities, system_t
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
@@ -278,7 +279,7 @@ contains
         matrix(:n, n + 1:) = -transpose(rows%re)
         right(:n) = 0.0_dp
         right(n + 1:) = -left
-        call solve_linear(matrix, right, solution, error)
+        call solve_saddle_point(matrix, n, right, solution, error)
         found = .not. allocated(error)
         if (found) found = all(ieee_is_finite(solution))
         change = 0.0_dp

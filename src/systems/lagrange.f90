@@ -15,7 +15,7 @@ module lagrangia_lagrange
     use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
+    use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -151,7 +151,7 @@ contains
         end if
         call expand_lagrangian(system, t, q, v, terms)
         call equations_of_motion(system, t, q, v, terms, matrix, right)
-        call solve_linear(matrix, right, solution, error)
+        call solve_saddle_point(matrix, system%ndof, right, solution, error)
         if (allocated(error)) return
         a = solution(:system%ndof)
         multipliers = solution(system%ndof + 1:)
