@@ -48,11 +48,11 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: found(2)
 
-        call size_of_solution(matrix, 2, rows, found, error)
+        call size_of_solution(matrix, rows, found, error)
         call assertFalse(allocated(error), "regular")
         ! the inverse is (5 3; 1 2)/7
         call assertEqual([3.25_dp, 1.0_dp]/7.0_dp, found, 1e4_dp*epsilon(1.0_dp), "|K^-1| w")
-        call size_of_solution(0.0_dp*matrix, 2, rows, found, error)
+        call size_of_solution(0.0_dp*matrix, rows, found, error)
         call assertTrue(allocated(error), "singular")
     end subroutine solutions_spread_what_rows_have
 

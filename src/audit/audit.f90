@@ -32,6 +32,12 @@ module lagrangia_audit
 
     integer, parameter :: draws = 40  !! of parameters and states
 
+    type :: unresolved_t
+        !! Where given parameters are so far apart that a double has no digit of what is between.
+        integer :: states = 0
+        character(:), allocatable :: why  !! of the first one without accelerations
+    end type unresolved_t
+
 contains
 
     subroutine audit_system(system, audit, fixed, given, watcher, label)
@@ -44,6 +50,7 @@ contains
         character(*), intent(in), optional :: label  !! of the section; without, the system's name
         type(random_t) :: random
         type(description_t) :: d
+        type(unresolved_t) :: unresolved
         type(error_t), allocatable :: error
         character(:), allocatable :: remark
         real(dp), allocatable :: values(:), culprit(:)
@@ -62,7 +69,8 @@ contains
             if (present(watcher)) call watcher%tick(i - 1_i8, int(draws, i8))
             call random%parameters(system, mod(i, 2) == 0, values, error, fixed, given)
             if (.not. allocated(error)) then
-                call audit_state(system, values, random, mod(i, 2) == 1, all_free, audit, error)
+                call audit_state(system, values, random, mod(i, 2) == 1, all_free, audit, &
+                                 unresolved, error)
             end if
             if (allocated(error)) then
                 call audit%try("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
@@ -72,7 +80,8 @@ contains
             end if
             call audit_parameters(audit, system, values)
             row = audit%row_of(claim_accelerations)
-            if (audit%rows(row)%holds .or. allocated(culprit)) cycle
+            if (row == 0 .or. allocated(culprit)) cycle
+            if (audit%rows(row)%holds) cycle
             allocate (culprit, source=values)
         end do
         if (allocated(culprit)) then
@@ -81,6 +90,7 @@ contains
             call audit%say(claim_accelerations, remark)
         end if
         if (random%left_out > 0) call say_left_out(audit, random%left_out)
+        if (unresolved%states > 0) call say_unresolved(audit, unresolved)
         call show_reactions(system, values, d, audit, given)
         call say_potential(audit, system)
     end subroutine audit_system
@@ -96,6 +106,21 @@ contains
         if (audit%rows(row)%holds) call audit%say(claim_mass, &
             "of the states drawn "//to_text(states)//" were left out, at which it is not")
     end subroutine say_left_out
+
+    subroutine say_unresolved(audit, unresolved)
+        !! The audit says what it could not judge; no state at all is no audit.
+        type(ledger_t), intent(inout) :: audit
+        type(unresolved_t), intent(in) :: unresolved
+
+        if (audit%row_of(claim_accelerations) == 0) then
+            call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
+            call audit%say(claim_accelerations, unresolved%why)
+        else
+            call audit%say(claim_accelerations, "at "//to_text(unresolved%states)//" of "// &
+                           to_text(draws)//" states given values and drawn ones differ by more "// &
+                           "digits than a double has: what needs both is not judged there")
+        end if
+    end subroutine say_unresolved
 
     pure function stated_parameters(d, values) result(text)
         !! `; with l = 0.0, g = 9.81`: perhaps the domain should exclude them.
@@ -153,7 +178,7 @@ contains
         call system%configure(values, error)
     end subroutine show_reactions
 
-    subroutine audit_state(system, values, random, inside, all_free, audit, error)
+    subroutine audit_state(system, values, random, inside, all_free, audit, unresolved, error)
         !! Every claim, at one state.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: values(:)  !! its parameters
@@ -161,12 +186,14 @@ contains
         logical, intent(in) :: inside    !! no parameter was put on the edge of its domain
         logical, intent(in) :: all_free  !! nor was one given
         type(ledger_t), intent(inout) :: audit
+        type(unresolved_t), intent(inout) :: unresolved
         type(error_t), allocatable, intent(out) :: error
         type(nearby_t) :: nearby
         type(motion_t) :: motion
         type(error_t), allocatable :: unsolved
         real(dp), allocatable :: q(:), v(:), other_q(:), other_v(:)
         real(dp) :: t, other_t
+        logical :: resolved
 
         call random%state(system, t, q, v, error)
         if (allocated(error)) return
@@ -176,13 +203,19 @@ contains
         call solve_motion(nearby, motion, unsolved)
         if (allocated(unsolved)) then
             call say_why(nearby%terms(0), t, q, v, unsolved)
-            call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
-            call audit%say(claim_accelerations, unsolved%message)
+            resolved = .false.
+            if (.not. allocated(unresolved%why)) unresolved%why = unsolved%message
+            if (all_free) then
+                resolved = .true.
+                call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
+                call audit%say(claim_accelerations, unsolved%message)
+            end if
         else
             call audit_accelerations(audit, system, nearby, motion)
-            call audit_gauss(audit, system, nearby, motion)
+            call audit_gauss(audit, system, nearby, motion, .not. all_free, resolved)
             call audit_constraints(audit, system, nearby, motion)
         end if
+        if (.not. resolved) unresolved%states = unresolved%states + 1
         call audit_energy(audit, system, nearby)
         if (.not. allocated(unsolved)) call audit_rates(audit, system, nearby, motion)
         call audit_momenta(audit, system, nearby)

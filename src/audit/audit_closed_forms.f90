@@ -11,9 +11,11 @@ module lagrangia_audit_closed_forms
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_lapack, only: smallest_pivot
     use lagrangia_ledger, only: ledger_t
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_mass_matrix, only: check_mass_matrix
     use lagrangia_named_values, only: motion_state_t
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_statements, only: statements_t
@@ -134,7 +136,7 @@ contains
         state%v0 = nearby%v(:, k)
         call statements%evaluate_rates(nearby%systems(k)%item, d, state, coordinates, start)
         state%t = nearby%t(k)
-        do tries = 1, 5
+        do tries = 1, 30
             call statements%evaluate_rates(nearby%systems(k)%item, d, state, coordinates, path)
             if (all(ieee_is_finite(path%d12))) exit
             state%t = 1e-3_dp*state%t
@@ -168,8 +170,10 @@ contains
         type(motion_state_t) :: state
         type(modes_t) :: modes
         type(description_t) :: near
+        type(euler_lagrange_t) :: terms
+        type(error_t), allocatable :: singular
         real(dp), allocatable :: at(:), left(:), right(:)
-        real(dp) :: omega2(0:neighbours)
+        real(dp) :: omega2(0:neighbours), sizes
         character(:), allocatable :: text
         integer :: k, equals, nearest
 
@@ -184,6 +188,9 @@ contains
             call statements%add_formula(text(equals + 3:), error)
             if (allocated(error)) return
             call statements%finish()
+            call expand_lagrangian(system, state%t, at, state%v, terms)
+            call check_mass_matrix(terms%mass, singular)
+            if (allocated(singular)) return  ! the mass matrix has a claim of its own
             call find_modes(system, at, .true., modes, error)
             if (allocated(error)) return
             allocate (left(1), right(1))
@@ -191,14 +198,18 @@ contains
                 call nearby%systems(k)%item%describe(near)
                 call statements%evaluate(nearby%systems(k)%item, near, state, left, right)
                 omega2(k) = left(1)
-                if (index(text(:equals), "^2") == 0) omega2(k) = left(1)*abs(left(1))
             end do
+            sizes = term_size(omega2)
+            if (index(text(:equals), "^2") == 0) then
+                sizes = 2.0_dp*abs(omega2(0))*sizes + epsilon(sizes)*sizes**2
+                omega2 = omega2*abs(omega2)
+            end if
             nearest = minloc(abs(modes%omega2 - omega2(0)), 1, .not. taken)
             if (nearest == 0) call fail(error, "there are more of them than modes")
             if (allocated(error)) return
             taken(nearest) = .true.
             call compare(audit, claim_frequency, omega2(:0), modes%omega2(nearest:nearest), &
-                         [term_size(omega2) + size(at)*maxval(abs(modes%omega2)) &
+                         [sizes + size(at)*maxval(abs(modes%omega2)) &
                           /smallest_pivot(modes%mass)])
             if (audit%rows(audit%row_of(claim_frequency))%holds) return
             call audit%say(claim_frequency, text//" is "//to_text(omega2(0))//" s^-2 about "// &

@@ -132,7 +132,7 @@ contains
             end do
             call compare(audit, "momenta are dL/dv", p, terms%dl_dv, momentum_size)
             call compare(audit, "forces are dL/dq", f, terms%dl_dq, force_size)
-            call size_of_solution(terms%mass, size(p), momentum_size, velocity_size, error)
+            call size_of_solution(terms%mass, momentum_size, velocity_size, error)
             if (allocated(error)) return  ! the mass matrix has a claim of its own
             call system%momenta(t, q, 0.0_dp*v, p)
             if (.not. all_finite(p)) return  ! nothing rests here, where the way back would begin

@@ -2,7 +2,7 @@ module lagrangia_audit_newton
     !! What Newton and Gauss say of a system at one state, from masses, forces and constraints.
     use lagrangia_audit_equations, only: compare
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss_principle, only: cartesian_t, gauss_equations, least_constraint, &
                                          linearise, masses_of, new_cartesian, place_points
     use lagrangia_hyperdual, only: hyperdual_t
@@ -20,22 +20,26 @@ module lagrangia_audit_newton
 
     character(*), parameter :: claim_gauss = "Gauss's least constraint"
     character(3), parameter :: axes = "xyz"
+    real(dp), parameter :: blurred = 1e-6_dp  !! of slopes: what rounding does is linear no more
 
 contains
 
-    subroutine audit_gauss(audit, system, nearby, motion)
+    subroutine audit_gauss(audit, system, nearby, motion, may_fail, resolved)
         !! Accelerations of the points from masses, forces and constraints alone, and each
         !! reaction against the formula of the same name.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
         type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
+        logical, intent(in) :: may_fail      !! given parameters may leave no digit to judge
+        logical, intent(out) :: resolved     !! there are some
         type(description_t) :: d
         type(cartesian_t) :: here
         type(error_t), allocatable :: error
         real(dp), allocatable :: acceleration_size(:), reaction_size(:), residual_size(:)
         integer :: i, k
 
+        resolved = .true.
         call system%describe(d)
         if (.not. has_masses(d)) return
         call least_constraint(system, nearby%t(0), nearby%q(:, 0), nearby%v(:, 0), here, error)
@@ -43,7 +47,10 @@ contains
             call size_cartesian(nearby, motion, here, acceleration_size, reaction_size, &
                                 residual_size, error)
         end if
-        if (allocated(error)) then
+        if (allocated(error) .and. may_fail) then
+            resolved = .false.
+            return
+        else if (allocated(error)) then
             call audit%try(claim_gauss, 1.0_dp, 0.0_dp, 1.0_dp)
             call audit%say(claim_gauss, error%message)
             return
@@ -101,6 +108,11 @@ contains
                 call make_smaller(random, near%x)
                 call make_smaller(random, near%x_dot)
                 call linearise(nearby%systems(k)%item, nearby%t(k), near)
+                if (any(maxval(abs(near%slope - here%slope), 2) > &
+                        blurred*maxval(abs(here%slope), 2))) then
+                    call fail(error, "rounding of the positions turns the constraints")
+                    return
+                end if
             end if
             call gauss_equations(near, matrix_near, right)
             if (k == 0) then
@@ -112,7 +124,7 @@ contains
         do i = 1, size(x)
             row_size(i) = row_size(i) + term_size(rows(i, :))
         end do
-        call size_of_solution(matrix, n, row_size, unknowns, error)
+        call size_of_solution(matrix, row_size, unknowns, error)
         if (allocated(error)) return
         allocate (acceleration_size(n), reaction_size(size(x) - n), residual_size(size(x) - n))
         reaction_size = unknowns(n + 1:)

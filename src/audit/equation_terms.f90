@@ -131,7 +131,7 @@ contains
         do j = 1, all
             right = 0.0_dp
             right(j) = 1.0_dp
-            call solve_saddle_point(matrix, n, right, solution, error)
+            call solve_saddle_point(matrix, right, solution, error)
             if (allocated(error)) return
             if (j > n) then
                 terms(:, 1, n + 1) = terms(:, 1, n + 1) - solution(:n) &

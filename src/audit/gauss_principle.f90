@@ -180,7 +180,7 @@ contains
         real(dp) :: matrix(size(solution), size(solution))
 
         call gauss_equations(self, matrix, right)
-        call solve_saddle_point(matrix, size(self%x), right, solution, error)
+        call solve_saddle_point(matrix, right, solution, error)
         if (allocated(error)) return
         allocate (self%acceleration(size(self%x)), self%reaction(size(self%right)))
         self%acceleration = solution(:size(self%x))

@@ -97,15 +97,14 @@ contains
         size = abs(values(0)) + 2.0_dp/neighbours*sum(abs(values(1:) - values(0)))/step
     end function term_size
 
-    pure subroutine size_of_solution(matrix, n, size_of_rows, size_of_unknowns, error)
+    pure subroutine size_of_solution(matrix, size_of_rows, size_of_unknowns, error)
         !! \(|K^{-1}|\,w\): what errors of the size \(w\) in the rows of \(Kx = r\) do to the
         !! unknowns.
         !!
         !! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., sec. 7.2.
-        real(dp), intent(in) :: matrix(:, :)           !! \(K\), (n + k, n + k), k constraints
-        integer, intent(in) :: n                       !! size of the mass matrix in it
-        real(dp), intent(in) :: size_of_rows(:)        !! \(w\), (n + k)
-        real(dp), intent(out) :: size_of_unknowns(:)   !! (n + k)
+        real(dp), intent(in) :: matrix(:, :)           !! \(K\), (n, n), \(|K|\) symmetric
+        real(dp), intent(in) :: size_of_rows(:)        !! \(w\), (n)
+        real(dp), intent(out) :: size_of_unknowns(:)   !! (n)
         type(error_t), allocatable, intent(out) :: error       !! the matrix is singular
         real(dp), dimension(size(size_of_rows)) :: right, solution, unit
         integer :: j
@@ -114,7 +113,7 @@ contains
         do j = 1, size(right)
             right = 0.0_dp
             right(j) = size_of_rows(j)
-            call solve_saddle_point(matrix, n, right, solution, error, unit)
+            call solve_saddle_point(matrix, right, solution, error, unit)
             if (allocated(error)) return
             size_of_unknowns = size_of_unknowns + abs(solution)
         end do
@@ -145,7 +144,7 @@ contains
                                      nearby%v(:, k), nearby%terms(k), near, right)
             if (k == 0) then
                 matrix = near
-                call solve_saddle_point(matrix, n, right, x, error)
+                call solve_saddle_point(matrix, right, x, error)
                 if (allocated(error)) return
                 row_size = matmul(abs(matrix), abs(x)) + abs(right)
             end if
@@ -158,7 +157,7 @@ contains
         do i = 1, all
             row_size(i) = row_size(i) + term_size(rows(i, :))
         end do
-        call size_of_solution(matrix, n, row_size, unknowns, error)
+        call size_of_solution(matrix, row_size, unknowns, error)
         if (allocated(error)) return
         allocate (motion%accelerations(n), motion%size(n), motion%equation_size(n))
         allocate (motion%multipliers(all - n), motion%multiplier_size(all - n))

@@ -7,7 +7,7 @@ module lagrangia_check
     use lagrangia_console, only: console_failed, flush_console, note, put_line, put_row, &
         rewrites_lines
     use lagrangia_counted, only: counted
-    use lagrangia_description, only: described_by, description_t, name_length
+    use lagrangia_description, only: described_by, description_t, name_length, value_names
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_json, only: json_line
@@ -214,7 +214,34 @@ contains
             if (allocated(error)) return
         end do
         call set_labels(audited)
+        do i = 1, size(audited)
+            call check_sizes(audited(i), error)
+            if (allocated(error)) return
+        end do
     end subroutine choose
+
+    subroutine check_sizes(audited, error)
+        !! Fourth powers of parameters are to be finite, and not zero: the claims are judged by the
+        !! sizes of terms and of their changes.
+        type(audited_t), intent(in) :: audited
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: largest = 1e75_dp
+        type(description_t) :: d
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        call audited%system%describe(d)
+        allocate (names, source=value_names(d))
+        do i = 1, size(names)
+            associate (x => abs(audited%given(i)))
+                if (.not. (x > largest .or. (x > 0.0_dp .and. x < 1.0_dp/largest))) cycle
+            end associate
+            call fail(error, trim(audited%label)//": "//trim(names(i))//" = "// &
+                      to_text(audited%given(i))//": 'check' takes 0 and sizes from 1e-75 to "// &
+                      "1e75, of which fourth powers are still doubles; choose other units")
+            return
+        end do
+    end subroutine check_sizes
 
     subroutine set_labels(audited)
         !! The names of the systems; of those whose name another one has, too, with the scene.

@@ -356,7 +356,7 @@ contains
                 mass(j, k) = mass_value(system, s, j, k)
             end do
         end do
-        call size_of_solution(mass, size(s%q), term_sizes(system, s), sizes, singular)
+        call size_of_solution(mass, term_sizes(system, s), sizes, singular)
         large = sizes(i)
     end function acceleration_size
 
@@ -377,7 +377,7 @@ contains
             square(:, j) = matmul(rows, rows(j, :))
             right(j) = sum(abs(rows(j, :))*sizes)
         end do
-        call size_of_solution(square, size(right), right, of_multipliers, singular)
+        call size_of_solution(square, right, of_multipliers, singular)
         large = of_multipliers(i)
     end function multiplier_size
 

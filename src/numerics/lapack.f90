@@ -101,7 +101,7 @@ contains
         end if
     end subroutine check
 
-    pure subroutine solve_linear(matrix, rhs, x, error, condition)
+    pure subroutine solve_linear(matrix, rhs, x, error)
         !! Solve \(A x = b\) for a small dense \(A\).
         !!
         !! LAPACK's expert driver: unlike `dgesv` it balances rows and columns first, so masses of
@@ -113,8 +113,6 @@ contains
         real(dp), intent(in) :: rhs(:)                    !! \(b\), (n)
         real(dp), intent(out) :: x(:)                     !! (n); zero after an error
         type(error_t), allocatable, intent(out) :: error  !! shapes, NaN, singular, overflow
-        real(dp), intent(out), optional :: condition
-        !! LAPACK's estimate of the reciprocal condition number of the balanced matrix; 0: refused
         real(dp), dimension(size(rhs), size(rhs)) :: a, factors
         real(dp), dimension(size(rhs), 1) :: b, solution
         real(dp), dimension(size(rhs)) :: row_scale, column_scale
@@ -123,7 +121,6 @@ contains
         character :: equed
 
         x = 0.0_dp
-        if (present(condition)) condition = 0.0_dp
         n = size(rhs)
         call check("linear system", "coefficient", size(x) == n .and. all(shape(matrix) == n), &
                    all_finite(matrix) .and. all_finite(rhs), error)
@@ -140,7 +137,6 @@ contains
             call fail(error, "linear system: the solution overflows", status_library)
         else
             x = solution(:, 1)
-            if (present(condition)) condition = rcond
         end if
     end subroutine solve_linear
 

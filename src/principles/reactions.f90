@@ -223,7 +223,7 @@ contains
             scaled%slope = factor*c%slope
             scaled%right = factor*c%right
             call gauss_equations(scaled, matrix, right)
-            call solve_saddle_point(matrix, 3, right, solution, error)
+            call solve_saddle_point(matrix, right, solution, error)
         end subroutine solve_with
     end subroutine twice_the_same
 

@@ -279,7 +279,7 @@ contains
         matrix(:n, n + 1:) = -transpose(rows%re)
         right(:n) = 0.0_dp
         right(n + 1:) = -left
-        call solve_saddle_point(matrix, n, right, solution, error)
+        call solve_saddle_point(matrix, right, solution, error)
         found = .not. allocated(error)
         if (found) found = all(ieee_is_finite(solution))
         change = 0.0_dp

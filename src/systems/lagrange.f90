@@ -151,7 +151,7 @@ contains
         end if
         call expand_lagrangian(system, t, q, v, terms)
         call equations_of_motion(system, t, q, v, terms, matrix, right)
-        call solve_saddle_point(matrix, system%ndof, right, solution, error)
+        call solve_saddle_point(matrix, right, solution, error)
         if (allocated(error)) return
         a = solution(:system%ndof)
         multipliers = solution(system%ndof + 1:)
