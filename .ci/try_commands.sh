@@ -575,6 +575,8 @@ check "sweep: it says that auto took dop853, in lanes" grep -q "^by_tolerance: 4
 run bench sweep --quick --json --output "$work/bench"
 check "bench sweep: ours and GSL's, on one thread and on all, by rk4 to 1e-6, otherwise to 1e-9" json '(lambda r: {x["method"] for x in r} == {"rk4", "gsl_rk4", "gauss16", "dop853", "gsl_rk8pd", "lyapunov", "gsl_lyapunov"} and all(x["error"] < (1e-6 if "rk4" in x["method"] else 1e-6 if x["method"] == "gsl_lyapunov" else 1e-9) and x["us_each"] > 0 for x in r))([x for x in d if x["table"] == "sweep"])'
 check "bench sweep: over_gsl is GSL's time by ours" json '(lambda r, of: len(r) > 6 and all(abs(x["over_gsl"]*x["us_each"]/next(y["us_each"] for y in r if y["threads"] == x["threads"] and y["method"] == of.get(x["method"], x["method"])) - 1) < 1e-9 for x in r))([x for x in d if x["table"] == "sweep"], {"rk4": "gsl_rk4", "gauss16": "gsl_rk8pd", "dop853": "gsl_rk8pd", "lyapunov": "gsl_lyapunov"})'
+run bench output --quick --json --output "$work/bench"
+check "bench output: a million rows take the time of a row, times a million" json 'len(d) == 3 and all(abs(x["rows_per_second"]*x["us_a_row"]/1e6 - 1) < 1e-12 for x in d)'
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
 check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
 run sweep pendulum --over theta=0:1:1000000000000 --keep theta --output "$work/sweep"

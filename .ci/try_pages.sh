@@ -221,6 +221,7 @@ files compare double_pendulum --methods gauss16,rk4 --json
 files compare pendulum --starts "1 2 0:7"
 for system in pendulum cart_pendulum double_pendulum hanging_chain rotating_hoop; do files modes $system; done
 for n in 8 13; do files modes hanging_chain --set hanging_chain%n=$n; done
+files modes .ci/inputs/long_rotor.nml
 written '*.html' modes hanging_chain --animate
 written '*.html' modes charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2 --animate
 written '*.html' run atwood_lift oscillator driven_oscillator wedge rolling_disk charged_particle --animate

@@ -288,6 +288,8 @@ contains
                                           values)
                         call assertEqual(0, audit%broken(), trim(names(i))//", "//trim(p%name))
                         row = audit%row_of("Gauss's least constraint")
+                        if (p%name == "m") call assertEqual(40, audit%rows(row)%states, &
+                                                            trim(names(i))//", m: all states")
                         if (row == 0) row = audit%row_of("accelerations as from L")
                         if (audit%rows(row)%states < 40) then
                             row = audit%row_of("accelerations as from L")

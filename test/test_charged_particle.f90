@@ -32,6 +32,7 @@ contains
         call suite%addTest(TestMethod("undeclared_quantities_change", &
                                       undeclared_quantities_change, setUp=restart_random))
         call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields))
+        call suite%addTest(TestMethod("fields_are_drawn", fields_are_drawn))
     end function charged_particle_suite
 
     subroutine build(particle, m, charge, electric, magnetic, trap)
@@ -56,6 +57,25 @@ contains
         call particle%accelerations(0.0_dp, [0.0_dp, 3.0_dp, 0.0_dp], nil, a)
         call assertEqual([-0.5_dp, -6.0_dp, 0.0_dp], a, 1e-15_dp)
     end subroutine force_is_lorentz
+
+    subroutine fields_are_drawn()
+        !! Those that are not zero, also where all their components are negative.
+        type(charged_particle_t) :: particle
+        type(description_t) :: d
+        real(dp), parameter :: down(3) = [0.0_dp, -1.0_dp, 0.0_dp]
+
+        call build(particle, 1.0_dp, 1.0_dp, nil, nil, 1.0_dp)
+        call particle%describe(d)
+        call assertFalse(any(index(d%figure, "field") == 1), "none")
+        call build(particle, 1.0_dp, 1.0_dp, down, nil, 1.0_dp)
+        call particle%describe(d)
+        call assertEqual(1, count(index(d%figure, "field E (electric_x") == 1), "E alone")
+        call assertEqual(0, count(index(d%figure, "field B") == 1), "no B")
+        call build(particle, 1.0_dp, 1.0_dp, nil, down, 1.0_dp)
+        call particle%describe(d)
+        call assertEqual(1, count(index(d%figure, "field B (magnetic_x") == 1), "B alone")
+        call assertEqual(0, count(index(d%figure, "field E") == 1), "no E")
+    end subroutine fields_are_drawn
 
     subroutine expect(electric, magnetic, trap, names, what)
         !! With charge -0.7, exactly `names` are declared to be conserved, and they are.

@@ -161,15 +161,16 @@ contains
                              new_line("a")//"&lagrangian coordinates = 'x', 'y', parameters = "// &
                              "'m', 'g', T = 'm/2 (x_dot^2 + y_dot^2)', V = 'm g y', "// &
                              "constraint = 'x^2 + y^2 = 1' /"//new_line("a")// &
-                             "&ring m = "//mass//", g = 9.81 /", "scene", none, scene, system, error)
+                             "&ring m = "//mass//", g = 9.81 /", "scene", none, scene, &
+                             system, error)
             call assertFalse(allocated(error), "m = "//mass)
             if (allocated(error)) return
             call accelerations_from_lagrangian(system, 0.0_dp, [0.6_dp, -0.8_dp], &
                                                [0.8_dp, 0.6_dp], a, multipliers, error)
             call assertFalse(allocated(error), "accelerations of m = "//mass)
             ! along the ring -0.6 g, inwards the square of the velocity, 1
-            call assertEqual([-0.6_dp*0.8_dp*9.81_dp - 0.6_dp, -0.36_dp*9.81_dp + 0.8_dp], a, loss, &
-                             "m = "//mass)
+            call assertEqual([-0.6_dp*0.8_dp*9.81_dp - 0.6_dp, -0.36_dp*9.81_dp + 0.8_dp], a, &
+                             loss, "m = "//mass)
             q = [0.6_dp + 1e-6_dp, -0.8_dp]
             v = [0.8_dp, 0.6_dp]
             call system%keep_constraints(0.0_dp, q, v)

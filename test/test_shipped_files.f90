@@ -3,7 +3,7 @@ module test_shipped_files
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_file, status_usage
     use lagrangia_files, only: read_whole_file
-    use lagrangia_shipped, only: find_scene, named_scenes, shipped_scenes
+    use lagrangia_shipped, only: find_scene, named_scenes, scene_name, shipped_scenes
     use lagrangia_shipped_files, only: read_file_or_shipped, shipped_files, shipped_text
     use lagrangia_text, only: word_t
     implicit none (type, external)
@@ -20,6 +20,7 @@ contains
         call suite%addTest(TestMethod("each_is_the_file_of_data", each_is_the_file_of_data))
         call suite%addTest(TestMethod("what_is_not_carried", what_is_not_carried))
         call suite%addTest(TestMethod("scenes_by_name", scenes_by_name))
+        call suite%addTest(TestMethod("names_with_dots", names_with_dots))
     end function shipped_files_suite
 
     subroutine each_is_the_file_of_data()
@@ -45,6 +46,13 @@ contains
         call named_scenes(scenes)
         call assertEqual(size(scenes), size(paths), "no scene has two places")
     end subroutine each_is_the_file_of_data
+
+    subroutine names_with_dots()
+        !! Only the last ending goes; a name that is but an ending stays.
+        call assertEqual("l_1.5", scene_name("a.b/l_1.5.nml"), "a number in the name")
+        call assertEqual("swing", scene_name("../swing.nml"), "a folder above")
+        call assertEqual(".nml", scene_name("a/.nml"), "an ending alone")
+    end subroutine names_with_dots
 
     subroutine what_is_not_carried()
         !! A beginning of a path, blanks behind it or another folder are no file.

@@ -107,6 +107,10 @@ contains
         call assertEqual([39.0_dp, 42.0_dp, 45.0_dp, 48.0_dp], result%values(:4, 2), 1e-13_dp, &
                          "as many as there are")
         call assertTrue(all(ieee_is_nan(result%values(5:, 2))), "and no more")
+        call compute(oscillator//"&sweep strobe='3', points=1, after=20 /", ["x=1:2:2"], ["t"], &
+                     result, error, sweep)
+        call assertFalse(allocated(error), "one is enough")
+        call assertEqual(21.0_dp, result%values(1, 2), 1e-13_dp, "the first")
     end subroutine points_begin_after_a_time_and_end
 
     subroutine fixed_steps_meet_the_stroboscope()

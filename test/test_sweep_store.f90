@@ -23,7 +23,34 @@ module test_sweep_store
     character(*), parameter :: told = "m = 1"//new_line("a")
     integer(i8), parameter :: total = 23, size_of_block = 5  ! five blocks, the last of three
 
+    type, extends(observer_t) :: listener_t
+        !! How far the sweep was when it said so last.
+        integer(i8) :: done = 0, all = 0
+    contains
+        procedure :: observe
+        procedure :: tick
+    end type listener_t
+
+    class(observer_t), pointer :: listener => null()
+
 contains
+
+    subroutine observe(self, system, t, q, v, error)
+        !! Sees nothing.
+        class(listener_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+    end subroutine observe
+
+    subroutine tick(self, done, steps)
+        !! Hears how far it is.
+        class(listener_t), intent(inout) :: self
+        integer(i8), intent(in) :: done, steps
+
+        self%done = done
+        self%all = steps
+    end subroutine tick
 
     function sweep_store_suite() result(suite)
         !! The tests of this module.
@@ -331,8 +358,15 @@ contains
         if (allocated(error)) call assertTrue(index(error%message, "--resume") > 0, error%message)
         call read_whole_file(path//".part", text, error)
         call change(path//".part", len(text)/2, 0, " ")
-        call compute_grid(sweep, 3, nobody, result, error, path, told, .true.)
+        allocate (listener_t :: listener)
+        call compute_grid(sweep, 3, listener, result, error, path, told, .true.)
         call assertFalse(allocated(error), "resumed")
+        select type (listener)
+        type is (listener_t)
+            call assertTrue(listener%done > 0, "it says how far it is")
+            call assertEqual(listener%all, listener%done, "at the end all of what was left is done")
+        end select
+        deallocate (listener)
         call assertTrue(result%resumed > 5 .and. result%resumed < 18, "about a half was there")
         call assertEqual(expected%failures, int(result%failures), "as many fail")
         call assertTrue(allocated(result%reason), "and it is said why")
