@@ -169,7 +169,6 @@ module suites
     use test_run_disks, only: run_disks_suite
     use test_run_plan, only: run_plan_suite
     use test_same_motion_page, only: same_motion_page_suite
-    use test_saddle_point, only: saddle_point_suite
     use test_scene_files, only: scene_files_suite
     use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
@@ -332,7 +331,6 @@ contains
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
-        call suite%addTest(saddle_point_suite())
         call suite%addTest(lapack_band_suite())
         call suite%addTest(ledger_text_suite())
         call suite%addTest(least_time_suite())

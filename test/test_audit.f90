@@ -15,7 +15,7 @@ module test_audit
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_system, only: default_values, system_t
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     use liars, only: liars_known, new_liar
     use mutants, only: mutants_known, new_mutant
@@ -41,7 +41,6 @@ contains
         call suite%addTest(TestMethod("flags_are_judged_both_ways", flags_are_judged_both_ways))
         call suite%addTest(TestMethod("no_false_alarm_over_twelve_decades", &
                                       no_false_alarm_over_twelve_decades))
-        call suite%addTest(TestMethod("one_value_of_1e_20", one_value_of_1e_20))
         call suite%addTest(TestMethod("slips_are_named_over_twelve_decades", &
                                       slips_are_named_over_twelve_decades))
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
@@ -260,48 +259,6 @@ contains
             end do
         end do
     end subroutine no_false_alarm_over_twelve_decades
-
-    subroutine one_value_of_1e_20()
-        !! Masses of particles, in kg, beside lengths of the size of 1, and the like: no alarm, and
-        !! the claims that need both are judged, or said not to be.
-        character(32), allocatable :: names(:)
-        class(system_t), allocatable :: system
-        type(description_t) :: d
-        type(error_t), allocatable :: error
-        type(ledger_t) :: audit
-        real(dp), allocatable :: values(:)
-        integer :: first, i, k, row
-
-        allocate (names, source=system_names())
-        do i = 1, size(names)
-            call new_system(trim(names(i)), system, error)
-            call system%describe(d)
-            first = 1
-            do k = 1, size(d%parameters)
-                associate (p => d%parameters(k))
-                    if (p%count == 1 .and. .not. p%whole .and. p%upper > 1.0_dp) then
-                        values = default_values(d)
-                        values(first) = 1e-20_dp
-                        audit = ledger_t()
-                        call new_system(trim(names(i)), system, error)
-                        call audit_system(system, audit, [(first == row, row=1, size(values))], &
-                                          values)
-                        call assertEqual(0, audit%broken(), trim(names(i))//", "//trim(p%name))
-                        row = audit%row_of("Gauss's least constraint")
-                        if (p%name == "m") call assertEqual(40, audit%rows(row)%states, &
-                                                            trim(names(i))//", m: all states")
-                        if (row == 0) row = audit%row_of("accelerations as from L")
-                        if (audit%rows(row)%states < 40) then
-                            row = audit%row_of("accelerations as from L")
-                            call assertTrue(index(audit%rows(row)%remark, "not judged") > 0, &
-                                            trim(names(i))//", "//trim(p%name)//": said")
-                        end if
-                    end if
-                    first = first + p%count
-                end associate
-            end do
-        end do
-    end subroutine one_value_of_1e_20
 
     subroutine slips_are_named_over_twelve_decades()
         !! Each mutant at parameters where it does something; `.ci/extremes` draws more of them.

@@ -2,6 +2,7 @@ module test_audit_states
     !! The states of the audit: where masses are positive, and what acts only somewhere else.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system
+    use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_flow, only: flow_derivative
@@ -27,6 +28,7 @@ contains
                                       masses_that_are_negative_elsewhere))
         call suite%addTest(TestMethod("forces_that_are_narrow", forces_that_are_narrow))
         call suite%addTest(TestMethod("sizes_of_rates", sizes_of_rates))
+        call suite%addTest(TestMethod("one_value_of_1e_20", one_value_of_1e_20))
     end function audit_states_suite
 
     subroutine sizes_of_rates()
@@ -95,4 +97,46 @@ contains
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 exp(-1000 x_dot^2)'", audit)
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = 'exp(-(9 (t - 42))^4)'", audit)
     end subroutine forces_that_are_narrow
+
+    subroutine one_value_of_1e_20()
+        !! Masses of particles, in kg, beside lengths of the size of 1, and the like: no alarm, and
+        !! the claims that need both are judged, or said not to be.
+        character(32), allocatable :: names(:)
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(ledger_t) :: audit
+        real(dp), allocatable :: values(:)
+        integer :: first, i, k, row
+
+        allocate (names, source=system_names())
+        do i = 1, size(names)
+            call new_system(trim(names(i)), system, error)
+            call system%describe(d)
+            first = 1
+            do k = 1, size(d%parameters)
+                associate (p => d%parameters(k))
+                    if (p%count == 1 .and. .not. p%whole .and. p%upper > 1.0_dp) then
+                        values = default_values(d)
+                        values(first) = 1e-20_dp
+                        audit = ledger_t()
+                        call new_system(trim(names(i)), system, error)
+                        call audit_system(system, audit, [(first == row, row=1, size(values))], &
+                                          values)
+                        call assertEqual(0, audit%broken(), trim(names(i))//", "//trim(p%name))
+                        row = audit%row_of("Gauss's least constraint")
+                        if (p%name == "m") call assertEqual(40, audit%rows(row)%states, &
+                                                            trim(names(i))//", m: all states")
+                        if (row == 0) row = audit%row_of("accelerations as from L")
+                        if (audit%rows(row)%states < 40) then
+                            row = audit%row_of("accelerations as from L")
+                            call assertTrue(index(audit%rows(row)%remark, "not judged") > 0, &
+                                            trim(names(i))//", "//trim(p%name)//": said")
+                        end if
+                    end if
+                    first = first + p%count
+                end associate
+            end do
+        end do
+    end subroutine one_value_of_1e_20
 end module test_audit_states

@@ -10,6 +10,7 @@ module test_lapack
     use lagrangia_errors, only: error_t, status_library
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use test_saddle_point, only: saddle_point_suite
     implicit none (type, external)
     private
     public :: lapack_suite
@@ -33,6 +34,7 @@ contains
         call suite%addTest(TestMethod("refuses_what_is_not_finite", refuses_what_is_not_finite))
         call suite%addTest(TestMethod("refuses_shapes_that_differ", refuses_shapes_that_differ))
         call suite%addTest(TestMethod("refuses_an_overflow", refuses_an_overflow))
+        call suite%addTest(saddle_point_suite())
     end function lapack_suite
 
     subroutine solves_an_unsymmetric_system()
