@@ -28,8 +28,38 @@ contains
         call suite%addTest(TestMethod("two_modes_of_one_shape", two_modes_of_one_shape, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("zero_modes_stay_zero", zero_modes_stay_zero))
+        call suite%addTest(TestMethod("a_mode_between_two_far_ones", a_mode_between_two_far_ones))
         call suite%addTest(TestMethod("what_is_no_g_is_refused", what_is_no_g_is_refused))
     end function gyroscopic_suite
+
+    subroutine a_mode_between_two_far_ones()
+        !! A charge in an isotropic trap, \(\omega = 1\) along a field of any direction; across it
+        !! about \(b\) and \(1/b\). With more than 12 digits between them it is refused, not
+        !! stated with digits that are not there.
+        real(dp), parameter :: n(3) = [3.0_dp, 2.0_dp, 10.0_dp]/sqrt(113.0_dp)
+        real(dp) :: b, one(3, 3), g(3, 3)
+        complex(dp), allocatable :: lambda(:), modes(:, :)
+        type(error_t), allocatable :: error
+        integer :: i
+
+        one = 0.0_dp
+        do i = 1, 3
+            one(i, i) = 1.0_dp
+        end do
+        do i = 0, 20
+            b = 10.0_dp**i
+            g = b*reshape([0.0_dp, n(3), -n(2), -n(3), 0.0_dp, n(1), n(2), -n(1), 0.0_dp], [3, 3])
+            call gyroscopic_modes(one, g, one, lambda, modes, error)
+            call assertTrue(allocated(error) .eqv. i > 12, "refused")
+            if (allocated(error)) then
+                call assertEqual("more digits apart than doubles can tell", &
+                                 error%message(index(error%message, "more digits"):), "why")
+            else
+                call assertEqual(1.0_dp, aimag(lambda(2)), 1e-12_dp, "along the field")
+                call assertEqual(1.0_dp, aimag(lambda(1))*aimag(lambda(3)), 1e-12_dp, "across it")
+            end if
+        end do
+    end subroutine a_mode_between_two_far_ones
 
     subroutine solve(stiffness, g, inertia, lambda, modes)
         !! Of diagonal K and M, and a G of which the upper half is given.

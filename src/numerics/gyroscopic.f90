@@ -1,7 +1,7 @@
 module lagrangia_gyroscopic
     !! Small oscillations with gyroscopic forces: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
     use lagrangia_eigen, only: eigenpairs, norm1, normal_modes
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_text, only: to_text
@@ -33,7 +33,8 @@ contains
         real(dp), intent(in) :: inertia(:, :)                 !! \(M\), positive definite, (n, n)
         complex(dp), allocatable, intent(out) :: lambda(:)    !! (n), s^-1
         complex(dp), allocatable, intent(out) :: modes(:, :)  !! column j belongs to `lambda(j)`
-        type(error_t), allocatable, intent(out) :: error      !! what is wrong with K, G or M
+        type(error_t), allocatable, intent(out) :: error
+        !! what is wrong with K, G or M, or frequencies too far apart
         real(dp), allocatable :: omega2(:), shapes(:, :)
         complex(dp), dimension(size(stiffness, 1)) :: other
         complex(dp), dimension(size(stiffness, 1), size(stiffness, 1)) :: other_modes
@@ -57,6 +58,7 @@ contains
             if (.not. allocated(error)) fast = fast_modes(abs(lambda))
             lambda(fast + 1:) = other(fast + 1:)
             modes(:, fast + 1:) = other_modes(:, fast + 1:)
+            if (.not. allocated(error)) call check_spread(abs(lambda), fast, error)
         end if
         if (allocated(error)) then
             deallocate (lambda, modes)
@@ -73,6 +75,28 @@ contains
         end do
         call sort(lambda, modes)
     end subroutine gyroscopic_modes
+
+    pure subroutine check_spread(size_of, fast, error)
+        !! Fails where a mode is so far from both the fastest and the slowest one that it is lost
+        !! in the rounding of the matrix that it is solved from.
+        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending, (n)
+        integer, intent(in) :: fast         !! how many are solved from the matrix itself
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: most = 1e-3_dp  !! `refine` leaves about its square
+        real(dp) :: lost
+        integer :: k, n
+
+        n = size(size_of)
+        do k = 1, n
+            lost = merge(size_of(1)/size_of(k), size_of(k)/max(size_of(n), tiny(lost)), &
+                         k <= fast)*epsilon(lost)
+            if (.not. lost > most) cycle
+            call fail(error, "with G the frequencies "//to_text(size_of(1))//", "// &
+                      to_text(size_of(k))//" and "//to_text(size_of(n))// &
+                      " rad/s are more digits apart than doubles can tell", status_library)
+            return
+        end do
+    end subroutine check_spread
 
     elemental function is_steady(lambda) result(yes)
         !! Whether the motion neither grows nor decays.
