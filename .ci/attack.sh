@@ -218,7 +218,7 @@ check "a failed run: no asterisks" eval '[ $status -eq 3 ] && ! grep -qF "**" "$
 run run oscillator_verlet --set oscillator%k=1e30 --set scene%dt=1e-17 --set scene%duration=1e-14 --set scene%modes=.true. --set scene%expect_energy_drift=1e-200 --output "$work/stars"
 check "a fast oscillator: no asterisks" eval '! grep -qF "**" "$work/out" && grep -qF "1.0000000000E+15" "$work/out"'
 for words in "modes pendulum --set pendulum%g=1e200" "modes pendulum --set pendulum%g=1e-250" "check rotating_hoop --set rotating_hoop%m=1e12" \
-    "check pendulum --set pendulum%m=1e180 --set pendulum%g=1e-150"; do
+    "check pendulum --set pendulum%m=1e74 --set pendulum%g=1e-74"; do
     run $words
     check "$words: no asterisks" eval '[ -s "$work/out" ] && ! grep -qF "**" "$work/out"'
 done
