@@ -112,6 +112,12 @@ contains
         call assertEqual("0", factor_text(-epsilon(1.0_dp), d), "a little below")
         call assertEqual("-1", factor_text(-1.0_dp, d), "a wrong sign")
         call assertEqual("-0.5", factor_text(-0.5_dp, d), "half, with a wrong sign")
+        call system%configure([7.1_dp, 3.3_dp, 9.81_dp, 0.3_dp], error)
+        call system%describe(d)
+        call assertEqual("l^2", factor_text(3.3_dp**2, d), "a square")
+        call assertEqual("1/l", factor_text(1.0_dp/3.3_dp, d), "a parameter below")
+        call assertEqual("1/l^2", factor_text(1.0_dp/3.3_dp**2, d), "its square")
+        call assertEqual("m/l", factor_text(7.1_dp/3.3_dp, d), "a quotient")
     end subroutine factors_of_zero_have_no_sign
 
     subroutine wrong_claims_are_named()
