@@ -203,12 +203,12 @@ contains
         call solve_motion(nearby, motion, unsolved)
         if (allocated(unsolved)) then
             call say_why(nearby%terms(0), t, q, v, unsolved)
-            resolved = .false.
-            if (.not. allocated(unresolved%why)) unresolved%why = unsolved%message
+            resolved = all_free
             if (all_free) then
-                resolved = .true.
                 call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
                 call audit%say(claim_accelerations, unsolved%message)
+            else if (.not. allocated(unresolved%why)) then
+                unresolved%why = unsolved%message
             end if
         else
             call audit_accelerations(audit, system, nearby, motion)

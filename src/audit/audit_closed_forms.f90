@@ -190,7 +190,7 @@ contains
             call statements%finish()
             call expand_lagrangian(system, state%t, at, state%v, terms)
             call check_mass_matrix(terms%mass, singular)
-            if (allocated(singular)) return  ! the mass matrix has a claim of its own
+            if (allocated(singular)) return  ! given parameters leave no digit
             call find_modes(system, at, .true., modes, error)
             if (allocated(error)) return
             allocate (left(1), right(1))

@@ -11,8 +11,9 @@ module lagrangia_term_sizes
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, equations_of_motion, expand_lagrangian
+    use lagrangia_lapack, only: solve_linear
     use lagrangia_random_draws, only: random_t
-    use lagrangia_saddle_point, only: solve_saddle_point
+    use lagrangia_saddle_point, only: scale_saddle_point, solve_saddle_point
     use lagrangia_system, only: system_box_t, system_t
     implicit none (type, external)
     private
@@ -106,21 +107,23 @@ contains
         real(dp), intent(in) :: size_of_rows(:)        !! \(w\), (n)
         real(dp), intent(out) :: size_of_unknowns(:)   !! (n)
         type(error_t), allocatable, intent(out) :: error       !! the matrix is singular
+        real(dp) :: scaled(size(matrix, 1), size(matrix, 2))
         real(dp), dimension(size(size_of_rows)) :: right, solution, unit
         integer :: j
 
+        call scale_saddle_point(matrix, scaled, unit)
         size_of_unknowns = 0.0_dp
         do j = 1, size(right)
             right = 0.0_dp
-            right(j) = size_of_rows(j)
-            call solve_saddle_point(matrix, right, solution, error, unit)
+            right(j) = unit(j)*size_of_rows(j)
+            call solve_linear(scaled, right, solution, error)
             if (allocated(error)) return
             size_of_unknowns = size_of_unknowns + abs(solution)
         end do
         ! refined once, an unknown that should be zero is an epsilon squared of the others, times
-        ! what the elimination made of it, in the units that it had there
-        size_of_unknowns = size_of_unknowns &
-                           + 1e4_dp*epsilon(1.0_dp)*unit*maxval(size_of_unknowns/unit)
+        ! what the elimination made of it
+        size_of_unknowns = size_of_unknowns + 1e4_dp*epsilon(1.0_dp)*maxval(size_of_unknowns)
+        size_of_unknowns = size_of_unknowns*unit
     end subroutine size_of_solution
 
     subroutine solve_motion(nearby, motion, error)

@@ -61,6 +61,7 @@ contains
                    expression%depends_on(samples%frequency + 1))) return
         there = values
         do k = 2, samples%ndof
+            ! behind the modes of a constrained system stand zeros, which are none
             if (samples%system%constraints > 0 .and. all(is_zero(samples%omega2(:, k)))) cycle
             call put_mode(samples, k, there)
             call explain_slip(expression, first, samples, there, library, other)

@@ -4,34 +4,41 @@ module lagrangia_saddle_point
     !!    z = \begin{pmatrix} x\\ \lambda\end{pmatrix}, $$
     !! in units of the unknowns that fit: masses of electrons, and radii in metres beside
     !! inertias in kg m^2, are else lost in rounding.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_number_class, only: all_finite
     implicit none (type, external)
     private
-    public :: solve_saddle_point
+    public :: scale_saddle_point, solve_saddle_point
 
 contains
 
-    pure subroutine solve_saddle_point(matrix, rhs, z, error, unit)
-        !! Solve \(SKS\,y = Sr\), \(z = Sy\), with \(S\) diagonal, of powers of 2.
+    pure subroutine solve_saddle_point(matrix, rhs, z, error)
+        !! Solve \(SKS\,y = Sr\), \(z = Sy\).
         real(dp), intent(in) :: matrix(:, :)  !! \(K\), (n, n), \(|K|\) is symmetric
         real(dp), intent(in) :: rhs(:)        !! \(r\), (n)
         real(dp), intent(out) :: z(:)         !! (n); zero after an error
         type(error_t), allocatable, intent(out) :: error  !! as of `solve_linear`
-        real(dp), intent(out), optional :: unit(:)        !! diagonal of \(S\), (n)
         real(dp) :: scaled(size(matrix, 1), size(matrix, 2)), s(size(matrix, 1))
+
+        call scale_saddle_point(matrix, scaled, s)
+        call solve_linear(scaled, rhs*s, z, error)
+        if (.not. allocated(error)) z = z*s
+    end subroutine solve_saddle_point
+
+    pure subroutine scale_saddle_point(matrix, scaled, s)
+        !! \(SKS\), with \(S\) diagonal, of powers of 2.
+        real(dp), intent(in) :: matrix(:, :)   !! \(K\), (n, n), \(|K|\) is symmetric
+        real(dp), intent(out) :: scaled(:, :)  !! (n, n)
+        real(dp), intent(out) :: s(:)          !! diagonal of \(S\), (n)
         integer :: j
 
         s = units_of(matrix)
-        do j = 1, size(matrix, 2)
+        do j = 1, size(s)
             scaled(:, j) = (matrix(:, j)*s(j))*s
         end do
-        call solve_linear(scaled, rhs*s, z, error)
-        if (.not. allocated(error)) z = z*s
-        if (present(unit)) unit = s
-    end subroutine solve_saddle_point
+    end subroutine scale_saddle_point
 
     pure function units_of(matrix) result(s)
         !! Of the permutations, that with the largest product of \(|K_{i\pi(i)}|\) has coefficients
@@ -46,7 +53,7 @@ contains
         real(dp) :: total
 
         s = 1.0_dp
-        if (.not. all(ieee_is_finite(matrix))) return
+        if (.not. all_finite(matrix)) return
         cost = no_way
         where (abs(matrix) > 0.0_dp) cost = -log(abs(matrix))/log(2.0_dp)
         call assign(cost, of_row, of_column, total)
