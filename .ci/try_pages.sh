@@ -64,8 +64,11 @@ written() { # written NAMES WORDS...: of the files that are written those alone 
     keep written by "${@:2}" < <(python3 .ci/written_files.py "$work/files" | costless)
 }
 
-claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is
-    awk 'substr($0, 1, 2) == "  " && $NF ~ /^(holds|FAILS)$/ {
+claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is, but of methods
+    awk '$1 == "methods" { orders = 1 }
+        substr($0, 1, 2) == "  " && $NF ~ /^(holds|FAILS)$/ && orders {
+        printf "%s noise %s bound %s, %d states, %s\n", substr($0, 1, 42), $(NF - 3), $(NF - 2), $(NF - 1), $NF; next }
+        substr($0, 1, 2) == "  " && $NF ~ /^(holds|FAILS)$/ {
         printf "%s bound/noise %.0f, %d states, %s\n", substr($0, 1, 42), $(NF - 2)/$(NF - 3), $(NF - 1), $NF; next }
         { print }' | sed -E -e 's/(measured|,) [0-9.]+ on/\1 ~ on/g' -e 's/([0-9]\.[0-9]{6})[0-9]{6,}/\1/g' | plain
 }

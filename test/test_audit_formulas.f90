@@ -170,14 +170,17 @@ contains
         type(nearby_t) :: nearby
         type(motion_t) :: motion
         type(error_t), allocatable :: error
+        logical :: resolved
 
+        resolved = .true.
         call system%configure(drawn%values, error)
         call assertFalse(allocated(error), "configured")
         call new_nearby(nearby, system, drawn%values, drawn%t, drawn%q, drawn%v)
         call solve_motion(nearby, motion, error)
         call assertFalse(allocated(error), "solved")
         call audit_formulas(audit, nearby, motion, .true.)
-        call audit_closed_forms(audit, nearby)
+        call audit_closed_forms(audit, nearby, .false., resolved)
+        call assertTrue(resolved, "resolved")
     end subroutine audit_draw
 
     subroutine what_cannot_be_read_fails()

@@ -1,5 +1,6 @@
 module test_audit_states
     !! The states of the audit: where masses are positive, and what acts only somewhere else.
+    use dragged_systems, only: slipped_cart_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
@@ -27,8 +28,12 @@ contains
         call suite%addTest(TestMethod("masses_that_are_negative_elsewhere", &
                                       masses_that_are_negative_elsewhere))
         call suite%addTest(TestMethod("forces_that_are_narrow", forces_that_are_narrow))
+        call suite%addTest(TestMethod("a_force_on_one_coordinate_is_seen", &
+                                      a_force_on_one_coordinate_is_seen))
         call suite%addTest(TestMethod("sizes_of_rates", sizes_of_rates))
         call suite%addTest(TestMethod("one_value_of_1e_20", one_value_of_1e_20))
+        call suite%addTest(TestMethod("frequencies_too_far_apart_to_judge", &
+                                      frequencies_too_far_apart_to_judge))
     end function audit_states_suite
 
     subroutine sizes_of_rates()
@@ -98,6 +103,24 @@ contains
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = 'exp(-(9 (t - 42))^4)'", audit)
     end subroutine forces_that_are_narrow
 
+    subroutine a_force_on_one_coordinate_is_seen()
+        !! Drag on a cart, whose pendulum has no motor, and a system that denies it.
+        character(*), parameter :: claim = "nonconservative says what is true"
+        type(slipped_cart_t) :: system
+        type(error_t), allocatable :: error
+        type(ledger_t) :: audit
+
+        system%slip = 1
+        call system%configure([1.0_dp, 0.7_dp, 0.0_dp], error)
+        call assertFalse(allocated(error), "parameters")
+        call audit_system(system, audit, [.false., .false., .true.], [1.0_dp, 0.7_dp, 0.0_dp])
+        associate (row => audit%rows(audit%row_of(claim)))
+            call assertFalse(row%holds, "denied")
+            call assertEqual("nonconservative is false, yet there are generalised forces", &
+                             trim(row%remark))
+        end associate
+    end subroutine a_force_on_one_coordinate_is_seen
+
     subroutine one_value_of_1e_20()
         !! Masses of particles, in kg, beside lengths of the size of 1, and the like: no alarm, and
         !! the claims that need both are judged, or said not to be.
@@ -139,4 +162,25 @@ contains
             end do
         end do
     end subroutine one_value_of_1e_20
+
+    subroutine frequencies_too_far_apart_to_judge()
+        !! Of a charge of 1e30 in a trap: no alarm, but a word.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(ledger_t) :: audit
+        real(dp), allocatable :: values(:)
+        integer :: charge, row
+
+        call new_system("charged_particle", system, error)
+        call system%describe(d)
+        values = default_values(d)
+        charge = findloc(d%parameters%name, "charge", 1)
+        charge = sum(d%parameters(:charge - 1)%count) + 1
+        values(charge) = 1e30_dp
+        call audit_system(system, audit, [(row == charge, row=1, size(values))], values)
+        call assertEqual(0, audit%broken(), message="claims that do not hold")
+        row = audit%row_of("accelerations as from L")
+        call assertTrue(index(audit%rows(row)%remark, "not judged") > 0, "said")
+    end subroutine frequencies_too_far_apart_to_judge
 end module test_audit_states

@@ -215,7 +215,6 @@ contains
             call audit_gauss(audit, system, nearby, motion, .not. all_free, resolved)
             call audit_constraints(audit, system, nearby, motion)
         end if
-        if (.not. resolved) unresolved%states = unresolved%states + 1
         call audit_energy(audit, system, nearby)
         if (.not. allocated(unsolved)) call audit_rates(audit, system, nearby, motion)
         call audit_momenta(audit, system, nearby)
@@ -226,7 +225,8 @@ contains
         call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)
         if (.not. allocated(unsolved)) call audit_formulas(audit, nearby, motion, &
                                                            inside .and. all_free)
-        call audit_closed_forms(audit, nearby)
+        call audit_closed_forms(audit, nearby, .not. all_free, resolved)
+        if (.not. resolved) unresolved%states = unresolved%states + 1
     end subroutine audit_state
 
     pure subroutine say_why(terms, t, q, v, error)

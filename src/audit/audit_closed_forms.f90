@@ -8,7 +8,7 @@ module lagrangia_audit_closed_forms
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_audit_equations, only: compare
     use lagrangia_description, only: description_t, frequency_t
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
@@ -31,10 +31,12 @@ module lagrangia_audit_closed_forms
 
 contains
 
-    subroutine audit_closed_forms(audit, nearby)
+    subroutine audit_closed_forms(audit, nearby, may_fail, resolved)
         !! Add the rows of one state.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         type(nearby_t), intent(in) :: nearby    !! the state and its neighbours
+        logical, intent(in) :: may_fail         !! LAPACK, by parameters given
+        logical, intent(inout) :: resolved      !! becomes false where LAPACK did
         type(description_t) :: d
         type(error_t), allocatable :: error
         logical :: taken(nearby%systems(0)%item%ndof)  !! modes that a frequency was found for
@@ -51,8 +53,13 @@ contains
                 taken = .false.
             end if
             call audit_frequency(audit, nearby, d, d%frequencies(i), taken, error)
-            if (allocated(error)) call refuse(audit, claim_frequency, &
-                                              trim(d%frequencies(i)%equation)//": "//error%message)
+            if (.not. allocated(error)) cycle
+            if (may_fail .and. error%status == status_library) then
+                resolved = .false.
+            else
+                call refuse(audit, claim_frequency, &
+                            trim(d%frequencies(i)%equation)//": "//error%message)
+            end if
         end do
     end subroutine audit_closed_forms
 

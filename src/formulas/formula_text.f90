@@ -159,9 +159,8 @@ contains
             if ((number%denominator > familiar .or. mod(number%denominator, 5_i8) == 0_i8) .and. &
                 abs(number%value) < 1e5_dp .and. mod(10_i8**9, number%denominator) == 0_i8) return
             text = to_text(number%numerator)//"/"//to_text(number%denominator)
-        else if (is_zero(abs(number%value) - pi)) then
+        else if (is_zero(number%value - pi)) then
             text = "pi"
-            if (number%value < 0.0_dp) text = "-pi"
         end if
     end function number_in_formula
 end module lagrangia_formula_text

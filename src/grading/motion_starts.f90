@@ -183,8 +183,7 @@ contains
         do i = 1, size(samples%role)
             at = index(samples%symbols%names(i), hidden)
             if (at == 0) cycle
-            if (.not. any([(start(k)%count > 0 .and. start(k)%depends_on(i), &
-                            k=1, size(start))])) cycle
+            if (.not. any([(start(k)%depends_on(i), k=1, size(start))])) cycle
             samples%symbols%names(i) = samples%symbols%names(i) (:at - 1)
         end do
     end subroutine read_starts

@@ -145,8 +145,7 @@ contains
         coordinate = 0
         order = 0
         call parse_formula(side, samples%symbols, left, error)
-        if (allocated(error)) return
-        if (left%count /= 1) return
+        if (left%count /= 1) return  ! it cannot be read, or is more than a name
         associate (place => left%nodes(1)%which)
             if (place < 2 .or. place > 1 + 3*samples%ndof) return
             coordinate = 1 + mod(place - 2, samples%ndof)
