@@ -224,17 +224,19 @@ contains
         call shorten(algebra, numerator)
         call shorten(algebra, denominator)
         powers = 0
-        do k = 1, algebra%count  ! of no terms `minval` is huge
-            associate (over => minval(numerator%power(k, :numerator%terms)), &
-                       under => minval(denominator%power(k, :denominator%terms)))
-                if (over < 0 .and. under < 0) powers(k) = -min(over, under)
-            end associate
-        end do
+        if (numerator%terms > 0) then
+            do k = 1, algebra%count
+                associate (over => minval(numerator%power(k, :numerator%terms)), &
+                           under => minval(denominator%power(k, :denominator%terms)))
+                    if (over < 0 .and. under < 0) powers(k) = -min(over, under)
+                end associate
+            end do
+        end if
         numerator = numerator%shifted(ratio(1_i8, 1_i8), powers)
         denominator = denominator%shifted(ratio(1_i8, 1_i8), powers)
         call square_roots(algebra, numerator)
         call square_roots(algebra, denominator)
-        if (denominator%terms == 1) then
+        if (denominator%terms == 1 .and. numerator%terms > 0) then
             quotient = numerator%shifted(ratio(1_i8, 1_i8)/denominator%coefficient(1), &
                                          -denominator%power(:, 1))
             if (any(minval(quotient%power(:, :quotient%terms), 1) >= 0)) then
