@@ -73,7 +73,7 @@ contains
         !! Title, file, and nothing that judges it.
         type(scene_t) :: scene
 
-        call change("pendulum%l=2; Scene % q(1) = 0.5", scene)
+        call change("  pendulum%l=2 ; Scene % q(1) = 0.5 ", scene)
         call assertTrue(allocated(scene%changes), "it is changed")
         if (.not. allocated(scene%changes)) return
         call assertEqual("l=2, q_1=0.5", scene%changes)

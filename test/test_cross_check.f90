@@ -33,6 +33,8 @@ contains
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
         call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
         call suite%addTest(TestMethod("the_tolerance_that_is_named", the_tolerance_that_is_named))
+        call suite%addTest(TestMethod("the_fastest_coordinate_counts", &
+                                      the_fastest_coordinate_counts))
         call suite%addTest(TestMethod("an_estimate_has_the_rounding_in_it", &
                                       an_estimate_has_the_rounding_in_it))
         call suite%addTest(TestMethod("an_error_is_of_coordinates", an_error_is_of_coordinates))
@@ -250,6 +252,30 @@ contains
         call assertEqual(0.1_dp, sensible_tolerance(method, pendulum, 0.0_dp, 1.0_dp, [theta], &
                          [0.3_dp]), 0.0_dp, "at most")
     end subroutine the_tolerance_that_is_named
+
+    subroutine the_fastest_coordinate_counts()
+        !! Of two pendulums: noise is judged beside the larger velocity, whichever
+        !! coordinate has it.
+        class(system_t), allocatable :: system
+        type(dop853_t) :: method
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+        real(dp), parameter :: q(2) = [1e8_dp, 1e8_dp]
+        real(dp) :: floors(3)
+
+        call read_and_plan("&scene system = 'two', dt = 1, duration = 1, q = 0.1, 0.2 / "// &
+                           "&lagrangian coordinates = 'a', 'b', parameters = 'k', "// &
+                           "L = '(a_dot^2 + b_dot^2)/2 + k cos(a) + k cos(b)' / &two k = 0.2 /", &
+                           "s.nml", [word_t ::], scene, system, error)
+        call assertFalse(allocated(error), "two pendulums")
+        if (allocated(error)) return
+        floors(1) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [0.3_dp, 110.0_dp])
+        floors(2) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [110.0_dp, 0.3_dp])
+        floors(3) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [110.0_dp, 110.0_dp])
+        call assertGreaterThan(floors(3), method%least_tolerance)
+        call assertEqual(floors(3), floors(1), 0.0_dp, "the second one")
+        call assertEqual(floors(3), floors(2), 0.0_dp, "the first one")
+    end subroutine the_fastest_coordinate_counts
 
     subroutine an_estimate_has_the_rounding_in_it()
         !! A hoop at rest is a pendulum, whose motion is known; its own error is an estimate. So

@@ -69,7 +69,8 @@ contains
                          [again%t0, again%dt, again%tolerance, again%duration, again%q, again%v, &
                           again%parameters], message=scene%source)
         call assertEqual([scene%every, scene%samples], [again%every, again%samples])
-        call assertTrue(scene%compensated .eqv. again%compensated, "compensated")
+        call assertTrue(all([scene%compensated, scene%error_estimate, scene%modes] .eqv. &
+                            [again%compensated, again%error_estimate, again%modes]), "flags")
         call assertEqual([character(200) :: scene%title, scene%system, scene%method, scene%output, &
                           scene%period_of], [character(200) :: again%title, again%system, &
                                              again%method, again%output, again%period_of])
@@ -158,7 +159,8 @@ contains
         call assertTrue(allocated(error), "both every and samples")
         call read_and_plan("&scene title = 'it''s ""it"" ! / &b = 1', system='pendulum'"//nl// &
                          "dt=0.1000000000000000055, duration=0.30000000000000004, t0=-1e-300,"// &
-                         "every=3"//nl//"q=1e300, v=-0.0, compensated=t /"//nl// &
+                         "every=3"//nl//"q=1e300, v=-0.0, compensated=t, modes=t, "// &
+                         "error_estimate=t /"//nl// &
                          "&pendulum m=4.9406564584124654e-300, l=1.7976931348623157e308 /", &
                          "s.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "a good scene")

@@ -119,13 +119,18 @@ contains
 
     subroutine a_closed_file_cannot_be_written()
         !! A mistake of ours, not of the user; but no silence either.
-        type(output_file_t) :: file
+        type(output_file_t) :: file, other
         type(error_t), allocatable :: error
 
         call file%write("text")
         call assertTrue(file%failed(), "file%failed()")
         call file%commit(error)
         call assertTrue(allocated(error), "an error: a closed file cannot be written")
+        if (anyExceptions()) return
+        call assertEqual("cannot write '': it is not open", error%message)
+        call other%rewrite(0_i8, "")
+        call other%commit(error)
+        call assertTrue(allocated(error), "nor rewritten")
         if (anyExceptions()) return
         call assertEqual("cannot write '': it is not open", error%message)
     end subroutine a_closed_file_cannot_be_written

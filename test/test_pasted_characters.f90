@@ -9,6 +9,7 @@ module test_pasted_characters
     use lagrangia_formula_text, only: formula_text
     use lagrangia_homework, only: homework_t, parse_homework
     use lagrangia_judgement, only: is_right, is_unreadable
+    use lagrangia_letter_shapes, only: is_letter_shape
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: to_text
     use tried_responses, only: graded
@@ -30,6 +31,10 @@ contains
         call suite%addTest(TestMethod("signs_mean_what_they_look_like", &
                                       signs_mean_what_they_look_like))
         call suite%addTest(TestMethod("letters_in_other_shapes", letters_in_other_shapes))
+        call suite%addTest(TestMethod("where_alphabets_begin_and_end", &
+                                      where_alphabets_begin_and_end))
+        call suite%addTest(TestMethod("where_alphabets_begin_and_end", &
+                                      where_alphabets_begin_and_end))
         call suite%addTest(TestMethod("remedies_of_their_own", remedies_of_their_own))
         call suite%addTest(TestMethod("lines_of_a_sheet", lines_of_a_sheet))
         call suite%addTest(TestMethod("columns_count_characters", columns_count_characters))
@@ -128,6 +133,22 @@ contains
             "_1 + y"//utf8(776)//"_1 m_2 - z"//utf8(775)//utf8(8322)//" x_a"), "behind the index")
         call means(utf8(int(z"FF4D"))//utf8(int(z"FF12")), "m2")
     end subroutine letters_in_other_shapes
+
+    subroutine where_alphabets_begin_and_end()
+        !! The mathematical ones have gaps: no letter may be made of these.
+        integer, parameter :: gaps(*) = [int(z"1D3FF"), int(z"1D6A4"), int(z"1D6A7"), &
+            int(z"1D6C1"), int(z"1D7CA"), int(z"1D7CD"), int(z"1D800")]
+        integer :: i
+
+        do i = 1, size(gaps)
+            call assertFalse(is_letter_shape(gaps(i)), to_text(gaps(i)))
+        end do
+        call assertEqual("z", plain_letters(utf8(int(z"1D6A3"))))
+        call assertEqual("A", plain_letters(utf8(int(z"1D6A8"))))
+        call assertEqual("pi", plain_letters(utf8(int(z"1D7C9"))))
+        call assertEqual("0", plain_letters(utf8(int(z"1D7CE"))))
+        call assertEqual("9", plain_letters(utf8(int(z"1D7FF"))))
+    end subroutine where_alphabets_begin_and_end
 
     subroutine remedies_of_their_own()
         call refused("2"//utf8(189)//" m", "column 2: U+00BD is a fraction; write it with '/'")

@@ -12,6 +12,7 @@ module lagrangia_audit_structure
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_system, only: system_t
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: audit_flags, audit_cyclic, audit_mass, claim_mass, say_potential
@@ -153,7 +154,7 @@ contains
 
         call system%accelerations(t, q, v, a)
         call system%accelerations(other_t, q, other_v, b)
-        difference = maxval(abs(a - b))
+        difference = farthest(a, b)
     end function change
 
     subroutine audit_cyclic(audit, system, t, q, v)

@@ -12,6 +12,7 @@ module lagrangia_method_orders
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: audit_methods, method_run
@@ -145,7 +146,7 @@ contains
         end do
         call system%closed_form(0.0_dp, q0, v0, reference)
         call reference%state_at(duration, q_true, v_true)
-        error = max(maxval(abs(q - q_true)), maxval(abs(v - v_true)))
+        error = max(farthest(q, q_true), farthest(v, v_true))
     end subroutine method_run
 
     subroutine high_order(method, m)

@@ -10,6 +10,7 @@ module lagrangia_bench_problems
     use lagrangia_shipped_files, only: read_file_or_shipped
     use lagrangia_system, only: system_t
     use lagrangia_text, only: lower
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: bench_problem_t, problem_names, read_problem, read_problems
@@ -111,7 +112,7 @@ contains
         real(dp), intent(in) :: q(:), v(:)  !! the state at the end
         real(dp) :: error
 
-        error = max(maxval(abs(q - self%q_end)), maxval(abs(v - self%v_end)))
+        error = max(farthest(q, self%q_end), farthest(v, self%v_end))
         if (any(.not. (abs([q, v]) <= huge(error)))) error = huge(error)
     end function error_of
 end module lagrangia_bench_problems

@@ -18,6 +18,7 @@ module lagrangia_sweep_bench
     use lagrangia_sweep_grid, only: compute_grid, sweep_result_t, thread_count
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text, word_t
+    use lagrangia_vectors, only: farthest
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
     private
@@ -93,7 +94,7 @@ contains
                         passes*plan%rounds*size(rows), error)
                     if (allocated(error)) return
                     call take(rows(i), threads, numbers, seconds(round, i), error)
-                    worst(i) = maxval(abs(numbers - reference(:, i)))
+                    worst(i) = farthest(numbers, reference(:, i))
                 end do
             end do
             if (allocated(error)) return

@@ -8,6 +8,7 @@ module lagrangia_motion_check
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: check_motions
@@ -120,7 +121,7 @@ contains
         h = 1.0_dp
         do k = 0, halvings
             call differences(h, rate_q, rate_v)
-            off = max(maxval(abs(rate_q - v)), maxval(abs(rate_v - a)))
+            off = max(farthest(rate_q, v), farthest(rate_v, a))
             if (off <= bound*size_rates) return
             h = 0.5_dp*h
         end do

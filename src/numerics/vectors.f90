@@ -1,10 +1,10 @@
 module lagrangia_vectors
-    !! Vectors in three dimensions.
+    !! Vectors in three dimensions, and how far two lists of numbers are apart.
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(-)
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: cross, length
+    public :: cross, farthest, length
 
     interface cross
         module procedure cross_real, cross_real_hyperdual
@@ -36,4 +36,12 @@ contains
 
         length = hypot(hypot(a(1), a(2)), a(3))
     end function length
+
+    pure function farthest(a, b) result(distance)
+        !! \(\max_i|a_i - b_i|\), to either side.
+        real(dp), intent(in) :: a(:), b(:)  !! as many numbers, of one unit
+        real(dp) :: distance
+
+        distance = maxval(abs(a - b))
+    end function farthest
 end module lagrangia_vectors

@@ -24,6 +24,7 @@ module lagrangia_small_oscillations
     use lagrangia_tangent_space, only: check_integrable, find_tangent, tangent_t, within
     use lagrangia_text, only: to_text
     use lagrangia_time_in_motion, only: motion_contains_time
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
@@ -289,7 +290,7 @@ contains
         real(dp), intent(in) :: a(:, :), b(:, :)
         real(dp) :: difference
 
-        difference = maxval(abs(a - b))
+        difference = farthest([a], [b])
         if (maxval(abs(b)) > 0.0_dp) difference = difference/maxval(abs(b))
     end function relative
 

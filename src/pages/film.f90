@@ -12,6 +12,7 @@ module lagrangia_film
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: count_channels, film_json, furthest
@@ -64,7 +65,7 @@ contains
                 if (figure%places > 0) then
                     distance(i) = sqrt(maxval(sum((r(:, :, i) - other(:, :, i))**2, 1)))
                 else
-                    distance(i) = maxval(abs(frames%q(:, i) - reference%q(:, i)))
+                    distance(i) = farthest(frames%q(:, i), reference%q(:, i))
                 end if
             end do
             call channels%add(log10(max(distance, 1e-18_dp)), which)

@@ -17,6 +17,7 @@ module lagrangia_action
     use lagrangia_richardson, only: extrapolated
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: action_principle
@@ -164,7 +165,7 @@ contains
                     call find_path(oscillator, 0.0_dp, h, path, error)
                 end if
                 if (allocated(error)) return
-                away(i) = maxval(abs(path(1, :) - truth))
+                away(i) = farthest(path(1, :), truth)
                 middle(i) = path(1, n/2 + 1)
                 deallocate (path, truth)
             end do

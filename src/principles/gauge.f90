@@ -18,6 +18,7 @@ module lagrangia_gauge
     use lagrangia_richardson, only: extrapolated
     use lagrangia_system, only: system_box_t, system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: gauge_principle
@@ -122,7 +123,7 @@ contains
                 call system%accelerations(t, q, v, analytic)
                 call accelerations_from_lagrangian(gauged, t, q, v, a, lambda, error)
                 if (allocated(error)) return
-                off = maxval(abs(a - analytic))/max(1.0_dp, maxval(abs(analytic)))
+                off = farthest(a, analytic)/max(1.0_dp, maxval(abs(analytic)))
                 if (off <= worst) cycle
                 worst = off
                 where_worst = d%name

@@ -12,6 +12,7 @@ module lagrangia_noether
     use lagrangia_report, only: report_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_system, only: system_t
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: noether_principle
@@ -217,7 +218,7 @@ contains
         real(dp), intent(in) :: values(:)
         real(dp) :: largest
 
-        largest = maxval(abs(values - values(1)))
+        largest = farthest(values, spread(values(1), 1, size(values)))
     end function change
 
     subroutine draw(values, report)

@@ -14,6 +14,7 @@ module lagrangia_reactions
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_t
+    use lagrangia_vectors, only: farthest
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
@@ -73,7 +74,7 @@ contains
             if (allocated(error)) return
             if (k == 1) allocate (forces%lambda(size(c%reaction), samples))
             forces%lambda(:, k) = c%reaction
-            forces%apart = max(forces%apart, maxval(abs(c%acceleration - c%x_ddot)))
+            forces%apart = max(forces%apart, farthest(c%acceleration, c%x_ddot))
         end do
     end subroutine along
 
@@ -96,7 +97,7 @@ contains
             call report%equal("largest T = m g (3 - 2 cos(th0))", maxval(rod), &
                               m*g*(3.0_dp - 2.0_dp*cos(start)), most_missed(step))
             call report%equal("T less m g (3 cos(th) - 2 cos(th0)), largest", &
-                              maxval(abs(rod - m*g*(3.0_dp*cos(theta) - 2.0_dp*cos(start)))), &
+                              farthest(rod, m*g*(3.0_dp*cos(theta) - 2.0_dp*cos(start))), &
                               0.0_dp, drift*maxval(abs(rod)))
             call report%equal("is it m g cos(th), as if it hung still?", maxval(rod), m*g, &
                               most_missed(step), control=.true.)
@@ -129,11 +130,11 @@ contains
                                 "differences  [N]")
             call report%equal("x_ddot, 3n equations less those of q  [m/s^2]", forces%apart, &
                               0.0_dp, 10.0_dp*rounding)
-            call report%equal("T - m1 m2 (l th_dot^2 + g cos(th))/D", maxval(abs(rod &
-                              - m1*m*(l*w**2 + g*cos(theta))/(m1 + m*sin(theta)**2))), 0.0_dp, &
+            call report%equal("T - m1 m2 (l th_dot^2 + g cos(th))/D", farthest(rod, &
+                              m1*m*(l*w**2 + g*cos(theta))/(m1 + m*sin(theta)**2)), 0.0_dp, &
                               drift*maxval(abs(rod)))
-            call report%equal("N - (m1 g + T cos(th))", maxval(abs(track - m1*g &
-                              - rod*cos(theta))), 0.0_dp, drift*maxval(abs(track)))
+            call report%equal("N - (m1 g + T cos(th))", farthest(track, m1*g &
+                              + rod*cos(theta)), 0.0_dp, drift*maxval(abs(track)))
             call report%equal("is N the weight, (m1 + m2) g?  at the start", track(1), &
                               (m1 + m)*g, drift, control=.true.)
         end associate

@@ -7,6 +7,7 @@ module lagrangia_chaos
     use lagrangia_printed_table, only: short
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: stress_chaos
@@ -121,7 +122,7 @@ contains
             call walk(method, q)
             if (.not. allocated(error)) call walk(other, q_other)
             if (allocated(error)) return
-            distance(k) = maxval(abs(q - q_other))
+            distance(k) = farthest(q, q_other)
         end do
     contains
         subroutine walk(walker, q)

@@ -14,6 +14,7 @@ module lagrangia_pendulum_extremes
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: to_text
+    use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
     public :: exact_period, stress_large_angles, stress_separatrix
@@ -149,7 +150,7 @@ contains
         call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
         if (allocated(error)) return
         omega2 = exact_omega2(m1, m2)
-        worst = maxval(abs(sqrt(modes%omega2)/sqrt(omega2) - 1.0_dp))
+        worst = farthest(sqrt(modes%omega2)/sqrt(omega2), [1.0_dp, 1.0_dp])
     end function frequency_error
 
     pure function exact_omega2(m1, m2) result(omega2)
