@@ -29,6 +29,8 @@ contains
         call suite%addTest(TestMethod("every_echo_is_the_scene", every_echo_is_the_scene))
         call suite%addTest(TestMethod("long_lists_are_not_cut", long_lists_are_not_cut))
         call suite%addTest(TestMethod("quotes_and_digits_survive", quotes_and_digits_survive))
+        call suite%addTest(TestMethod("no_parameters_are_an_empty_group", &
+                                      no_parameters_are_an_empty_group))
         call suite%addTest(TestMethod("a_formula_is_broken_where_it_may_be", &
                                       a_formula_is_broken_where_it_may_be))
     end function echo_suite
@@ -170,6 +172,26 @@ contains
         call check_echo(scene, system, again)
         call assertEqual(-1.0_dp, sign(1.0_dp, again%v(1)), message="the sign of zero")
     end subroutine quotes_and_digits_survive
+
+    subroutine no_parameters_are_an_empty_group()
+        !! Which stands there all the same, and is read back.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene, again
+
+        call read_and_plan("&scene system = 'own', dt = 0.1, duration = 1.0, q = 0.3 /"//nl// &
+                           "&lagrangian coordinates = 'x [m]', L = 'x_dot^2/2' /", "own.nml", &
+                           [word_t ::], scene, system, error)
+        call assertFalse(allocated(error), "read")
+        if (allocated(error)) return
+        call check_echo(scene, system, again)
+        call parse_scene("&scene system = 'own', dt = 0.1, duration = 1.0, q = 0.3 /"//nl// &
+                         "&lagrangian coordinates = 'x [m]', L = 'x_dot^2/2' /"//nl//"&onw /", &
+                         "own.nml", [word_t ::], scene, system, error)
+        call assertTrue(allocated(error), "an empty group of another name")
+        if (.not. allocated(error)) return
+        call assertEqual("own.nml:3:1: unknown group 'onw'; did you mean 'own'?", error%message)
+    end subroutine no_parameters_are_an_empty_group
 
     subroutine a_formula_is_broken_where_it_may_be()
         !! Behind 80 characters without a place to break at the first there is: before `**`, not

@@ -252,19 +252,26 @@ contains
     end subroutine one_energy
 
     subroutine there_and_back()
-        !! Thrown up with \(v\) against 1: beyond \(\pi\) from \(v - \sqrt{v^2 - 2\pi}\) on.
+        !! Thrown up or down with \(v\) against 1 to the other side: beyond \(\pi\) from
+        !! \(v - \sqrt{v^2 - 2\pi}\) on.
         type(sweep_t) :: sweep
         real(dp) :: together(1, 9), v
         integer(i8) :: failures, first, i
+        integer :: way
 
-        call make("&scene system = 'thrown', method = 'dop853', tolerance = 1e-9, "// &
-                  "duration = 5, samples = 1, q = 0 / &lagrangian coordinates = 'u [rad]', "// &
-                  "L = 'u_dot^2/2 - u' /", ["u_dot=2.3:2.7:9"], ["flip u"], sweep)
-        call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)
-        call assertEqual(5, count(ieee_is_nan(together)), "not beyond")
-        do i = 6, 9
-            v = 2.25_dp + 0.05_dp*i
-            call assertEqual(v - sqrt(v**2 - 2*acos(-1.0_dp)), together(1, i), 1e-9_dp)
+        do way = 1, 2
+            call make("&scene system = 'thrown', method = 'dop853', tolerance = 1e-9, "// &
+                      "duration = 5, samples = 1, q = 0 / &lagrangian coordinates = 'u [rad]', "// &
+                      "parameters = 'a', L = 'u_dot^2/2 + a u' / &thrown a = "// &
+                      merge("-1", " 1", way == 1)//" /", &
+                      [merge("u_dot=2.3:2.7:9  ", "u_dot=-2.3:-2.7:9", way == 1)], ["flip u"], &
+                      sweep)
+            call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)
+            call assertEqual(5, count(ieee_is_nan(together)), "not beyond")
+            do i = 6, 9
+                v = 2.25_dp + 0.05_dp*i
+                call assertEqual(v - sqrt(v**2 - 2*acos(-1.0_dp)), together(1, i), 1e-9_dp)
+            end do
         end do
     end subroutine there_and_back
 

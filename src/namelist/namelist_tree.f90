@@ -412,7 +412,7 @@ contains
 
     pure subroutine refuse_unknown_groups(tree, allowed, error)
         !! Refuse the first group from which nobody has asked for a key, naming the nearest of the
-        !! `allowed` ones.
+        !! `allowed` ones; of these one may be empty, as `&o /` of a system without parameters.
         type(namelist_t), intent(in) :: tree              !! of a file
         character(*), intent(in) :: allowed(:)            !! in lower case
         type(error_t), allocatable, intent(out) :: error  !! status 2
@@ -420,7 +420,8 @@ contains
         integer :: i
 
         do i = 1, tree%group_count
-            if (tree%groups(i)%used) cycle
+            if (tree%groups(i)%used .or. (any(allowed == tree%groups(i)%name) .and. &
+                                          all(tree%entries(:tree%entry_count)%group /= i))) cycle
             text = advice("group ", trim(tree%groups(i)%name), allowed, whole)
             if (in_override(tree, tree%groups(i)%at)) text = text//" (in "//trim(tree%source)//")"
             call fail_at(tree, tree%groups(i)%at, text, error)
@@ -431,8 +432,7 @@ contains
     pure function advice(what, name, allowed, command) result(text)
         !! What to do about a `name` that is of no use; the command shows all that are allowed.
         character(*), intent(in) :: what, name, allowed(:), command
-        character(:), allocatable :: text
-        character(:), allocatable :: near
+        character(:), allocatable :: text, near
 
         near = nearest_name(name, allowed)
         if (near == "") near = abbreviation(name, allowed)
