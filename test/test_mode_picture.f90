@@ -51,12 +51,14 @@ contains
         folder = new_folder("mode_picture")
         path = mode_picture_path(folder//"/"//name)
         call assertEqual(folder//"/"//name//"_modes.dat", path)
-        call write_mode_picture(system, [character(1) ::], modes, folder//"/"//name, name, &
-                                error)
+        call write_mode_picture(system, [character(1) ::], modes, folder//"/"//name, &
+                                "As it is called", error)
         call assertFalse(allocated(error), "written: "//name)
         if (anyExceptions()) return
         text = contents(path)
         script = contents(folder//"/"//name//"_modes.gp")
+        call assertTrue(index(text, "# As it is called: small oscillations as the mech") > 0, text)
+        call assertTrue(index(script, 'set label 1 "As it is called: ') > 0, script)
         do while (len(text) > 0)
             last = index(text, new_line("a"))
             read (text(:last), *, iostat=status) row
@@ -145,7 +147,7 @@ contains
             call assertEqual(masses(4, 1) + 0.2_dp, maxval(edges(4, :4)), 1e-14_dp, "its right")
             call assertEqual(masses(5, 1) + 0.08_dp, maxval(edges(5, :4)), 1e-14_dp, "its top")
         end do
-        call assertTrue(index(script, """cart pendulum: small oscillations""") > 0, "in words")
+        call assertTrue(index(script, """As it is called: small oscillations""") > 0, "its title")
         call assertEqual(0, index(script, "? $4 + ") + index(script, "($5 + "), "none is shifted")
         call draw("oscillator", [0.0_dp], rows, script)
         ! The spring would cover itself: one side is drawn as far above as the other is below.

@@ -79,6 +79,7 @@ contains
         name = label
         call make_own_name(name, line%values_of("set"), d%parameters%name, &
                            line%value_of("at", ""), title)
+        title = in_words(label)//title(len(label) + 1:)
         stem = data_path(folder, name//"_modes.html", "text")
         page = stem
         stem = stem(:len(stem) - len("_modes.html"))
@@ -128,8 +129,7 @@ contains
             if (elsewhere) call put_line("")
             if (elsewhere) call print_modes(system, others)
         end if
-        if (line%has("animate")) call animate_modes(system, figure, modes, page, &
-                                 in_words(label)//title(len(label) + 1:), error)
+        if (line%has("animate")) call animate_modes(system, figure, modes, page, title, error)
         if (line%has("animate") .and. is_told(line) .and. .not. allocated(error)) then
             call put_line("film: "//page)
         end if

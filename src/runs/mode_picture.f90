@@ -60,7 +60,7 @@ contains
         character(*), intent(in) :: own(:)     !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes     !! of this system
         character(*), intent(in) :: stem       !! folder, and how the names of all files begin
-        character(*), intent(in) :: title      !! the system's name, and what is changed
+        character(*), intent(in) :: title      !! whose modes, in words, and what is changed
         type(error_t), allocatable, intent(out) :: error  !! of a file; then there is none
         type(description_t) :: d
         type(text_table_t) :: table
@@ -88,7 +88,7 @@ contains
         call script%open(script_path(table%file%name()), error)
         if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
-        call script%write(mode_script(d, modes, picture%rows(:, :picture%count), &
+        call script%write(mode_script(modes, picture%rows(:, :picture%count), &
                                       mode_picture_path(stem), title))
         call commit_both(table%file, script, error)
     end subroutine write_mode_picture

@@ -1,6 +1,5 @@
 module lagrangia_mode_script
     !! The gnuplot script that draws modes as the mechanism that swings.
-    use lagrangia_description, only: description_t
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero
@@ -8,7 +7,7 @@ module lagrangia_mode_script
     use lagrangia_plot_symbol, only: symbol
     use lagrangia_plot_words, only: text_label
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
-    use lagrangia_text, only: in_words, to_text
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: mode_script
@@ -23,13 +22,12 @@ module lagrangia_mode_script
 
 contains
 
-    function mode_script(d, modes, rows, path, title) result(text)
+    function mode_script(modes, rows, path, title) result(text)
         !! A panel a mode, all to one scale.
-        type(description_t), intent(in) :: d  !! of the system
-        type(modes_t), intent(in) :: modes    !! of the system
+        type(modes_t), intent(in) :: modes  !! of the system
         real(dp), intent(in) :: rows(:, :)  !! of the data file: mode, side, kind, x, y, z, dx, ...
         character(*), intent(in) :: path    !! of the data file
-        character(*), intent(in) :: title   !! the system's name, and what is changed
+        character(*), intent(in) :: title   !! whose modes, in words, and what is changed
         character(:), allocatable :: file, text
         type(lines_t) :: script
         real(dp) :: apart(2, most_panels), centre(2), drawn(2), half(2, most_panels)
@@ -59,8 +57,7 @@ contains
         call begin_script(script, file, width, height, 30*down)
         call script%add("data = folder."//gnuplot_string(file))
         call script%add("set multiplot")
-        call script%add("set label 1 "//text_label(in_words(d%name)// &
-                        title(len_trim(d%name) + 1:)//": "//shown_modes())// &
+        call script%add("set label 1 "//text_label(title//": "//shown_modes())// &
                         " at screen 0.5, screen "//fixed(1.0_dp - 24.0_dp/height, 4)// &
                         " center font ',16'")
         call script%add("set label 2 ""grey: at rest, and the way of each mass; blue, orange: "// &

@@ -83,7 +83,7 @@ contains
         type(modes_t), intent(in) :: modes  !! of this system
         integer, intent(in) :: j  !! number of the mode, from 1
         character(*), intent(in) :: stem  !! that of `prepare_modes`
-        character(*), intent(in) :: title  !! the system's name, and what is changed
+        character(*), intent(in) :: title  !! whose modes, in words, and what is changed
         type(error_t), allocatable, intent(out) :: error
         !! of a file; then none of this mode is left
         type(description_t) :: d
