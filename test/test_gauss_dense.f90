@@ -7,11 +7,12 @@ module test_gauss_dense
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_gauss_dense, only: gauss_dense_t
+    use lagrangia_gauss_kernels, only: apply, expand_both, fly, fly_by_guess, weighted_sum
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, new_adaptive, new_integrator, nth_adaptive
     use lagrangia_oscillator, only: oscillator_t
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
     private
     public :: gauss_dense_suite
@@ -29,7 +30,66 @@ contains
         call suite%addTest(TestMethod("ends_alone_cost_less", ends_alone_cost_less))
         call suite%addTest(TestMethod("catalogue_has_both", catalogue_has_both))
         call suite%addTest(TestMethod("noise_of_accelerations", noise_of_accelerations))
+        call suite%addTest(TestMethod("kernels_are_matrix_products", kernels_are_matrix_products))
     end function gauss_dense_suite
+
+    subroutine kernels_are_matrix_products()
+        !! Each sum that is written out term by term, with numbers of which no two are alike.
+        integer, parameter :: n = 3
+        real(dp), parameter :: h = 0.3_dp, small = 1e-13_dp
+        real(dp) :: a(2*lanes, n), c(lanes + 2, n), f1(lanes, n), f2(lanes, n), m(lanes, 2*lanes)
+        real(dp) :: m_v(lanes, 2*lanes), q(n), v(n), x(lanes), y(lanes, n), q_lane(lanes, n)
+        real(dp) :: both(lanes, 2, n), table(lanes, 2*lanes, 2), u(lanes, n)
+        integer :: i
+
+        a = numbers(2*lanes, n, 1.0_dp)
+        c = numbers(lanes + 2, n, 2.0_dp)
+        f1 = numbers(lanes, n, 3.0_dp)
+        f2 = numbers(lanes, n, 4.0_dp)
+        m = numbers(lanes, 2*lanes, 5.0_dp)
+        m_v = numbers(lanes, 2*lanes, 6.0_dp)
+        q = reshape(numbers(n, 1, 7.0_dp), [n])
+        v = reshape(numbers(n, 1, 8.0_dp), [n])
+        x = reshape(numbers(lanes, 1, 9.0_dp), [lanes])
+        call apply(n, m(:, :lanes), f1, y)
+        call assertEqual(0.0_dp, maxval(abs(y - matmul(m(:, :lanes), f1))), small, "apply")
+        call fly(n, h, x, q, v, m, m_v, a, q_lane, y)
+        call assertEqual(0.0_dp, maxval(abs(y - moved(v, h*matmul(m_v, a)))), small, "fly: v")
+        u = moved(q, h**2*matmul(m, a)) + h*spread(x, 2, n)*spread(v, 1, lanes)
+        call assertEqual(0.0_dp, maxval(abs(q_lane - u)), small, "fly: q")
+        call fly_by_guess(n, h, x, q, v, m(:, :lanes + 2), m_v(:, :lanes + 2), c, q_lane, y)
+        call assertEqual(0.0_dp, maxval(abs(y - moved(v, h*matmul(m_v(:, :lanes + 2), c)))), &
+                         small, "fly_by_guess: v")
+        u = moved(q, h**2*matmul(m(:, :lanes + 2), c)) + &
+            h*spread(x, 2, n)*spread(v, 1, lanes)
+        call assertEqual(0.0_dp, maxval(abs(q_lane - u)), small, "fly_by_guess: q")
+        table(:, :, 1) = m
+        table(:, :, 2) = m_v
+        call expand_both(n, table, f1, f2, both)
+        do i = 1, 2
+            call assertEqual(0.0_dp, maxval(abs(both(:, i, :) - matmul(table(:, :lanes, i), f1) &
+                             - matmul(table(:, lanes + 1:, i), f2))), small, "expand_both")
+        end do
+        call assertEqual(dot_product(m(1, :), a(:, 1)), weighted_sum(m(1, :), a(:, 1)), small, &
+                         "weighted_sum")
+    contains
+        function moved(start, change) result(there)
+            real(dp), intent(in) :: start(n), change(lanes, n)
+            real(dp) :: there(lanes, n)
+
+            there = spread(start, 1, lanes) + change
+        end function moved
+    end subroutine kernels_are_matrix_products
+
+    function numbers(rows, columns, which) result(all)
+        integer, intent(in) :: rows, columns
+        real(dp), intent(in) :: which
+        real(dp) :: all(rows, columns)
+        integer :: i, k
+
+        all = reshape([((sin(which + 3.7_dp*i + 1.3_dp*i*k + k**2), i=1, rows), k=1, columns)], &
+                      [rows, columns])
+    end function numbers
 
     subroutine ready(system, tolerance, method)
         !! Prepare `method`.

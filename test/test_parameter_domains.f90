@@ -36,6 +36,8 @@ contains
             -0.1_dp])
         call judge("e > 0;e >= 0;e >= -2", "greater than 0.0", [0.1_dp, 0.2_dp], [0.0_dp, -1.0_dp])
         call judge("e < 1;e <= 1;e < 7", "less than 1.0", [0.1_dp, 0.2_dp], [1.0_dp, 2.0_dp])
+        call judge("e <= 1;e < 1", "less than 1.0", [0.1_dp, 0.2_dp], [1.0_dp, 2.0_dp])
+        call judge("e >= 1;e > 1", "greater than 1.0", [1.1_dp, 2.0_dp], [1.0_dp, 0.0_dp])
     end subroutine bounds
 
     subroutine judge(texts, words, good, bad)
