@@ -162,8 +162,8 @@ refuses 2 "--methods: 'rk4' is given twice" compare pendulum --methods rk4,rk4 -
 refuses 2 "--methods: two at least are needed" compare pendulum --methods rk4 --output "$work/none"
 refuses 2 "start 'x': " compare pendulum --starts "1 x" --output "$work/none"
 refuses 2 "unknown method ''" compare pendulum --methods rk4,,verlet --output "$work/none"
-run compare pendulum --starts "1  2" --quiet --output "$work/blanks"
-check "compare: blanks between two starts count once" eval '[ $status -eq 0 ] && [ "$(ls "$work/blanks" | grep -c "dat$")" = 2 ]'
+run compare pendulum --starts "1  2" --quiet --output "$work/doubled"
+check "compare: blanks between two starts count once" eval '[ $status -eq 0 ] && [ "$(ls "$work/doubled" | grep -c "dat$")" = 2 ]'
 refuses 2 "unknown picture format 'bmp'; there are png, svg, pdf" compare pendulum --methods rk4,verlet --plot=bmp --output "$work/none"
 refuses 2 "--overlay: two scenes at least are needed" run pendulum --overlay --output "$work/none"
 refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output=overlay --output "$work/none"
