@@ -75,7 +75,7 @@ claims() { # of check: claim, bound over noise, states, verdict; not how large r
 
 statements() { # of principle: the bounds stay, as 1.0(-13), but no Lyapunov exponent
     sed -E -e 's/E([+-][0-9]+) +(holds|differs)$/(\1) \2/' -e 's/^(worst of 13: )[a-z_]+ +/\1 /' \
-        -e 's/^(double pendulum: above 10 standard errors|is it 0, as without chaos\?|.*: 0, it has [a-zA-Z_]+) .*(holds|differs)$/\1 ~ \2/' | plain
+        -e 's/^(double pendulum: above 10 sigma, and 0.023|is it 0, as without chaos\?|.*: 0, it has [a-zA-Z_]+) .*(holds|differs)$/\1 ~ \2/' | plain
 }
 
 ledger() { # of JSON: all but the numbers measured

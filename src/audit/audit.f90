@@ -91,8 +91,7 @@ contains
         end if
         if (random%left_out > 0) call say_left_out(audit, random%left_out)
         if (unresolved%states > 0) call say_unresolved(audit, unresolved)
-        call show_reactions(system, values, d, audit, given)
-        call say_potential(audit, system)
+        call show_forces(system, values, d, audit, given)
     end subroutine audit_system
 
     subroutine say_left_out(audit, states)
@@ -155,8 +154,9 @@ contains
                        epsilon(1.0_dp), 1.0_dp)
     end subroutine audit_parameters
 
-    subroutine show_reactions(system, values, d, audit, given)
-        !! Tensions and normal forces at one state, with the defaults or the parameters given.
+    subroutine show_forces(system, values, d, audit, given)
+        !! Tensions and normal forces at one state, and whether Q has a potential, with the defaults
+        !! or the parameters given.
         class(system_t), intent(inout) :: system
         real(dp), intent(in) :: values(:)           !! what `system` has
         type(description_t), intent(in) :: d        !! with the defaults
@@ -175,8 +175,9 @@ contains
         allocate (free(system%ndof - system%constraints), source=1.0_dp)
         call system%complete_velocities(0.0_dp, q, free, v, error)
         if (.not. allocated(error)) call say_reactions(audit, system, 0.0_dp, q, v)
+        call say_potential(audit, system)
         call system%configure(values, error)
-    end subroutine show_reactions
+    end subroutine show_forces
 
     subroutine audit_state(system, values, random, inside, all_free, audit, unresolved, error)
         !! Every claim, at one state.

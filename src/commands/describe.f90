@@ -195,8 +195,9 @@ contains
             end do
         end if
         if (allocated(d%motion)) then
-            call put_line("closed form, from "//trim(d%coordinates(1)%name)//"_0, "// &
-                          trim(d%coordinates(1)%name)//"_dot_0 at t = 0")
+            call put_line("closed form, from "//join([character(60) :: &
+                          (trim(d%coordinates(i)%name)//"_0, "//trim(d%coordinates(i)%name)// &
+                           "_dot_0", i=1, size(d%motion))], ", ")//" at t = 0")
             do i = 1, size(d%motion)
                 call put_wrapped(trim(d%motion(i)))
             end do

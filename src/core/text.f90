@@ -270,11 +270,11 @@ contains
     end function listed
 
     pure function in_words(name) result(words)
-        !! `double pendulum` of `double_pendulum`: a name in a title.
+        !! `double pendulum` of `double_pendulum`, `bare` of `_bare`: a name in a title.
         character(*), intent(in) :: name  !! trailing blanks do not count
         character(:), allocatable :: words
 
-        words = replaced(trim(name), "_", " ")
+        words = trim(adjustl(replaced(trim(name), "_", " ")))
     end function in_words
 
     pure function replaced(text, old, new) result(changed)

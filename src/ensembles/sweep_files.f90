@@ -179,17 +179,25 @@ contains
     end subroutine write_rows
 
     function attractor_text(sweep, result) result(text)
-        !! Where the attractors are: `; attractor 1 at x = 1.0, x_dot = 0.0`.
+        !! Where the attractors are, as many as a line holds: `; attractor 1 at x = 1.0, x_dot = 0.0;
+        !! 3 more`.
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(in) :: result
         character(:), allocatable :: text
+        character(:), allocatable :: next
         type(description_t) :: d
+        integer, parameter :: room = 170  !! of the line's 240 bytes, which has counts before it
         integer :: i
 
         call sweep%system%describe(d)
         text = ""
         do i = 1, result%attractors%count
-            text = text//"; attractor "//to_text(i)//" "//result%attractors%place_of(i, d)
+            next = "; attractor "//to_text(i)//" "//result%attractors%place_of(i, d)
+            if (len(text) + len(next) > room) then
+                text = text//"; "//to_text(result%attractors%count - i + 1)//" more"
+                exit
+            end if
+            text = text//next
         end do
     end function attractor_text
 end module lagrangia_sweep_files

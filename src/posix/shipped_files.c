@@ -1289,7 +1289,7 @@ static const char *const files[][2] = {
         "  T = 'm/2 (x_dot^2 + y_dot^2) + J/2 phi_dot^2'\n"
         "  V = '-m s x'\n"
         "  constraint = 'x_dot sin(phi) = y_dot cos(phi)'\n"
-        "  quantities = 'spin [kg m^2/s] angular momentum about the vertical = J phi_dot',\n"
+        "  quantities = 'spin [kg m^2/s] angular momentum about the normal of the ice = J phi_dot',\n"
         "    'across [m/s] velocity across the blade = x_dot sin(phi) - y_dot cos(phi)'\n"
         "  positions = 'skate, m: y, -x', 'front: y + 0.15 sin(phi), -x - 0.15 cos(phi)', 'back: y - 0.15 sin(phi), -x + 0.15 cos(phi)'\n"
         "/\n"

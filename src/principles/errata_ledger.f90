@@ -282,7 +282,7 @@ contains
                  "small 0: cos(0) = 1, sin(0) = 0", &
                  "small theta: cos(theta) = 1, sin(theta) = theta; the scan reads theta as 0", &
                  "with sin(theta) = 0 nothing would pull the pendulum back", &
-                 elsewhere=quote_t("I", 150, "m_2 g l 0 = 0"))
+                 elsewhere=quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x} - m_2 g l 0 = 0"))
         call add("E27", kind_scan, "Lagrange's equations, lost dots", &
                  [quote_t("I", 67, "\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - "// &
                                    "\frac{\partial (T-V)}{\partial q_j} = 0"), &
@@ -295,7 +295,8 @@ contains
                  "d/dt (dT/dq_j) - d(T - V)/dq_j = 0", &
                  "d/dt (dT/dq_j_dot) - d(T - V)/dq_j = 0", &
                  "", &
-                 elsewhere=quote_t("II", 58, "\frac{d}{dt} \frac{\partial "// &
+                 elsewhere=quote_t("II", 58, "\frac{\partial \mathcal{L}}{\partial q_j} - "// &
+                                             "\frac{d}{dt} \frac{\partial "// &
                                              "\mathcal{L}}{\partial \dot{q}_j} = 0"))
         call add("E28", kind_scan, "coordinates and constraints, letters", &
                  [quote_t("I", 9, "holonomic constraint: $x_i = x_i (\{q, f, t\}) = c_i$"), &

@@ -8,6 +8,7 @@ module lagrangia_geometric_phase
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_report, only: report_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -25,40 +26,56 @@ contains
         !! All statements, and the picture.
         type(report_t), intent(out) :: report  !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        type(rolling_disk_t) :: disk
 
         call report%begin("geometric-phase: around a loop and back, and yet displaced or turned")
         call report%cite("I", 126, "\Rightarrow \sum_{i} A_{i} \dot{q}_{i} + B = 0$$")
         call report%cite("I", 132, "\frac{\partial A_{\varphi}}{\partial \theta} = -R\cos\theta")
-        call four_legs(report)
-        call round_loop(report)
+        call disk%configure([m, r, 0.5_dp*m*r**2, 0.25_dp*m*r**2, 9.81_dp, 0.0_dp], error)
+        if (allocated(error)) return
+        call four_legs(disk, report)
+        call round_loop(disk, report)
         call foucault(report, error)
         if (allocated(error)) return
         call draw_displacement(report)
         call report%note("Foucault: a trap with k/m = 4/s^2 on a planet whose day has 60 s; "// &
                          "e B/m = 2 W sin(latitude).")
         call report%note("The disk's constraints are dx = R sin(theta) dphi, dy = -R "// &
-                         "cos(theta) "// &
-                         "dphi; theta = 0.4 at first.")
+                         "cos(theta) dphi; theta = 0.4")
+        call report%note("where the legs begin, and in the middle of the circle.")
     end subroutine geometric_phase_principle
 
-    pure function after_legs(d_theta, d_phi) result(shift)
+    pure function rolled(disk, theta, d_phi) result(shift)
+        !! As far as the rolling condition takes it, at the heading theta.
+        type(rolling_disk_t), intent(in) :: disk
+        real(dp), intent(in) :: theta, d_phi
+        real(dp) :: shift(2), v(4)
+        type(error_t), allocatable :: error
+
+        call disk%complete_velocities(0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, theta], [d_phi, 0.0_dp], v, &
+                                      error)
+        shift = v(:2)
+    end function rolled
+
+    pure function after_legs(disk, d_theta, d_phi) result(shift)
         !! Roll by d_phi, steer by d_theta, roll back, steer back.
+        type(rolling_disk_t), intent(in) :: disk
         real(dp), intent(in) :: d_theta, d_phi
         real(dp) :: shift(2)
 
-        shift = r*d_phi*[sin(heading), -cos(heading)] &
-                - r*d_phi*[sin(heading + d_theta), -cos(heading + d_theta)]
+        shift = rolled(disk, heading, d_phi) + rolled(disk, heading + d_theta, -d_phi)
     end function after_legs
 
-    subroutine four_legs(report)
+    subroutine four_legs(disk, report)
         !! Over \(-R(\cos\theta, \sin\theta)\,d\theta\,d\varphi\) the ratio goes to one.
+        type(rolling_disk_t), intent(in) :: disk
         type(report_t), intent(inout) :: report
         real(dp), parameter :: small(3) = [0.1_dp, 0.01_dp, 0.001_dp]
         real(dp) :: shift(2), along(3)
         integer :: i
 
         do i = 1, size(small)
-            shift = after_legs(small(i), small(i))
+            shift = after_legs(disk, small(i), small(i))
             along(i) = shift(1)/(-r*cos(heading)*small(i)**2)
         end do
         call report%section("disk: roll by d, steer by d, roll back, steer back: "// &
@@ -70,19 +87,20 @@ contains
                                   1.0_dp - 0.5_dp*small(i)*tan(heading) - small(i)**2/6.0_dp, &
                               small(i)**3 + 1e-12_dp)
         end do
-        shift = after_legs(small(1), small(1))
+        shift = after_legs(disk, small(1), small(1))
         call report%equal("delta y = R d (cos(theta + d) - cos(theta))", shift(2), &
                           r*small(1)*(cos(heading + small(1)) - cos(heading)), rounding)
-        shift = after_legs(0.0_dp, small(1))
+        shift = after_legs(disk, 0.0_dp, small(1))
         call report%equal("steering locked: delta x = 0  [m]", shift(1), 0.0_dp, 0.0_dp)
-        shift = after_legs(small(1), small(1))
+        shift = after_legs(disk, small(1), small(1))
         call report%equal("is it back, delta x = 0?  d = 0.1  [m]", shift(1), 0.0_dp, 1e-6_dp, &
                           control=.true.)
     end subroutine four_legs
 
-    pure function around(radius, turns) result(shift)
+    pure function around(disk, radius, turns) result(shift)
         !! \(\theta\) and \(\varphi\) on a circle; the sum over a whole period converges as fast as
         !! a series of Fourier's does.
+        type(rolling_disk_t), intent(in) :: disk
         real(dp), intent(in) :: radius, turns
         real(dp) :: shift(2)
         integer, parameter :: n = 4000
@@ -93,20 +111,21 @@ contains
         do i = 1, n
             s = 2.0_dp*pi*turns*i/n
             associate (theta => heading + radius*cos(s), d_phi => radius*cos(s)*2.0_dp*pi*turns/n)
-                shift = shift + r*d_phi*[sin(theta), -cos(theta)]
+                shift = shift + rolled(disk, theta, d_phi)
             end associate
         end do
     end function around
 
-    subroutine round_loop(report)
+    subroutine round_loop(disk, report)
         !! The area's integral over a circle of radius \(\rho\): \(2\pi\rho J_1(\rho)\cos\theta_0\).
+        type(rolling_disk_t), intent(in) :: disk
         type(report_t), intent(inout) :: report
         real(dp), parameter :: radius = 0.8_dp
         real(dp) :: there(2), back(2), twice(2)
 
-        there = around(radius, 1.0_dp)
-        back = around(radius, -1.0_dp)
-        twice = around(radius, 2.0_dp)
+        there = around(disk, radius, 1.0_dp)
+        back = around(disk, radius, -1.0_dp)
+        twice = around(disk, radius, 2.0_dp)
         call report%section("disk: theta and phi go around a circle of 0.8 rad")
         call report%equal("delta x = R cos(theta) 2 pi rho J1(rho)  [m]", there(1), &
                           2.0_dp*pi*r*radius*bessel_j1(radius)*cos(heading), rounding)

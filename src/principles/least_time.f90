@@ -129,7 +129,8 @@ contains
         real(dp), parameter :: n0 = 1.3_dp, kappa = 0.2_dp, psi = -0.35_dp, step = 0.01_dp
         integer, parameter :: n = 400
         type(graded_medium_t) :: air
-        real(dp) :: q(2, n + 1), v(2, n + 1), simpson, path, end_sigma, chord, first, last
+        real(dp) :: q(2, n + 1), v(2, n + 1), length(n + 1)
+        real(dp) :: simpson, path, end_sigma, chord, first, last
 
         call report%section("n^2 = n0^2 + 2 kappa y (a mirage), launched at -0.35 rad: by RK4")
         call air%configure([n0, kappa, 0.0_dp], error)
@@ -142,9 +143,9 @@ contains
                               x*tan(psi) + 0.5_dp*kappa*(x/(n0*cos(psi)))**2, 1e-13_dp)
             call layers(air, q, v, 1e-13_dp, report)
             end_sigma = n*step
-            simpson = step/3.0_dp*(sum(air%index_squared(q(2, 1:n - 1:2))) &
-                                   + 4.0_dp*sum(air%index_squared(q(2, 2:n:2))) &
-                                   + sum(air%index_squared(q(2, 3:n + 1:2))))
+            length = sqrt(air%index_squared(q(2, :)))*hypot(v(1, :), v(2, :))  ! n ds/dsigma
+            simpson = step/3.0_dp*(sum(length(1:n - 1:2)) + 4.0_dp*sum(length(2:n:2)) &
+                                   + sum(length(3:n + 1:2)))
             path = n0**2*end_sigma + kappa*n0*sin(psi)*end_sigma**2 + kappa**2*end_sigma**3/3.0_dp
             call report%equal("P of the ray = integral of n^2 dsigma  [m]", simpson, path, 1e-12_dp)
             chord = hypot(x, y)

@@ -31,7 +31,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("noether: what leaves L as it is, but for a dF/dt, is searched for; "// &
-                          "it is conserved")
+                          "what each conserves")
         call report%cite("I", 99, "+ \frac{dF}{dt}$ with $F(\{q_j\},t)$")
         call report%cite("I", 107, "=> F does not show up in the equations of motion")
         call on_the_cart(report, error)

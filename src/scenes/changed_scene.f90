@@ -3,7 +3,7 @@ module lagrangia_changed_scene
     !! and what the file expects of the unchanged motion does not judge it.
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: is_nonzero
-    use lagrangia_scene, only: scene_t, sweep_group_t
+    use lagrangia_scene, only: heading, scene_t, sweep_group_t
     use lagrangia_text, only: join, lower, to_text, word_t
     implicit none (type, external)
     private
@@ -39,7 +39,7 @@ contains
             scene%expectations(i)%judged = index(given, &
                 " expect_"//lower(trim(scene%expectations(i)%name))//" ") > 0
         end do
-        if (index(given, " title ") == 0) scene%title = trim(scene%title)//" ("//changes//")"
+        if (index(given, " title ") == 0) scene%title = heading(scene)//" ("//changes//")"
         if (index(given, " output ") == 0) call rename_output(scene, changes)
     end subroutine make_own_scene
 
@@ -81,7 +81,7 @@ contains
             if (numbers_over_axes(scene) /= numbers_over_axes(file)) then
                 scene%title = trim(scene%name)//": "//numbers_over_axes(scene)
             end if
-            if (changes /= "") scene%title = trim(scene%title)//" ("//changes//")"
+            if (changes /= "") scene%title = heading(scene)//" ("//changes//")"
         end if
         if (axes /= "" .and. changes /= "") axes = axes//", "
         if (axes//changes == "" .or. index(given, " output ") > 0) return

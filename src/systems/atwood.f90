@@ -89,6 +89,8 @@ contains
                 quantity("tension2", "N", "string at m2", &
                          "m2 "//gravity//" (2 m1"//pulley//")/"//total)]
             if (pulley == "") d%quantities(4:5)%formula = "2 m1 m2 "//gravity//"/(m1 + m2)"
+            if (.not. self%time_dependent) d%quantities(3) = &
+                conserved("total_energy", "J", "in the inertial frame", 0.0_dp, "T + V")
             if (free(self)) d%quantities(2) = &
                 conserved("p_x", "kg m/s", "momentum of x, cyclic if (m1 - m2) g = 0", 0.0_dp, &
                           total//" x_dot")

@@ -97,7 +97,7 @@ contains
             "Undriven, its frequency is the same at any amplitude.", &
             "Damping and a drive are forces beside L: describe damped_oscillator shows them.", &
             "Without both the actual path makes the action stationary, a minimum only for t < "// &
-            "pi/omega."]
+            "pi sqrt(m/k)."]
         d%figure = [character(figure_length) :: "ground (x_min - size, 0) (x_min - size, - 1)", &
                     "ground (x_min - size, - size/12) (x_min, - size/12)", &
                     "spring (x_min - size, 0) mass", "box mass (size/6, size/6)"]

@@ -64,7 +64,7 @@ contains
         d%quantities = [ &
             conserved("outward", "m/s", "start of the growing part", &
                       abs(self%omega)*per_length, "(r_dot + |omega| r) exp(- |omega| t)"), &
-            quantity("mechanical_energy", "J", "to which the wire does work", "T"), &
+            quantity("mechanical_energy", "J", "of the bead", "T"), &
             quantity("L_z", "kg m^2/s", "angular momentum, fed by the wire", "m omega r^2"), &
             quantity("wire_force", "N", "push of the wire, across it", "2 m omega r_dot")]
         d%quantities(2)%conserved = abs(self%omega) <= 0.0_dp

@@ -98,7 +98,7 @@ contains
         i = 1
         do while (i <= len_trim(unit))
             if (unit(i:i) == "^") then
-                last = i + verify(unit(i + 1:)//" ", "-"//digits) - 1
+                last = i + verify(unit(i + 1:)//" ", "-."//digits) - 1
                 if (index(unit(i + 1:), "(") == 1 .and. index(unit, ")", back=.true.) > i) then
                     last = i + index(unit(i + 1:), ")")
                     text = text//"^{"//unit(i + 2:last - 1)//"}"

@@ -24,7 +24,7 @@ module lagrangia_report
         !! A part of a line of the lecture notes, word for word.
         character(2) :: scan = ""  !! I or II
         integer :: line = 0
-        character(group_length) :: text = ""
+        character(group_length + 20) :: text = ""
     end type citation_t
 
     type, extends(ledger_t) :: report_t
