@@ -128,7 +128,7 @@ contains
         call assertEqual("# t[s] p_x[kg*m/s]"//end_line, text, "long counts stay in their line")
         text = head(table, "a b", "m"//end_line//"1")
         text = text(index(text(:len(text) - 1), end_line, back=.true.) + 1:)
-        call assertEqual("# t[s] a_b[m\x0A1]"//end_line, text)
+        call assertEqual("# t[s] a*b[m\x0A1]"//end_line, text)
     end subroutine a_text_table_has_a_word_a_column
 
     subroutine a_csv_table_has_a_cell_a_column()

@@ -153,7 +153,7 @@ contains
         !! From T and V to the frequencies, as far as the system says them.
         type(description_t), intent(in) :: d
         logical, intent(in) :: conserves_energy
-        character(:), allocatable :: letters
+        character(:), allocatable :: letters, start
         integer :: i
 
         letters = ""
@@ -195,9 +195,12 @@ contains
             end do
         end if
         if (allocated(d%motion)) then
-            call put_line("closed form, from "//join([character(60) :: &
-                          (trim(d%coordinates(i)%name)//"_0, "//trim(d%coordinates(i)%name)// &
-                           "_dot_0", i=1, size(d%motion))], ", ")//" at t = 0")
+            start = ""
+            do i = 1, size(d%motion)
+                start = start//", "//trim(d%coordinates(i)%name)//"_0, "// &
+                        trim(d%coordinates(i)%name)//"_dot_0"
+            end do
+            call put_line("closed form, from"//start(2:)//" at t = 0")
             do i = 1, size(d%motion)
                 call put_wrapped(trim(d%motion(i)))
             end do

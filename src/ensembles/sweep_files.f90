@@ -179,8 +179,8 @@ contains
     end subroutine write_rows
 
     function attractor_text(sweep, result) result(text)
-        !! Where the attractors are, as many as a line holds: `; attractor 1 at x = 1.0, x_dot = 0.0;
-        !! 3 more`.
+        !! Where the attractors are, `; attractor 1 at x = 1.0, x_dot = 0.0; 3 more`, as many as a
+        !! line holds.
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(in) :: result
         character(:), allocatable :: text

@@ -175,7 +175,7 @@ contains
         case ("E1", "E3", "E4")
             call report%section(values//"; 20 states that obey L's equations")
         case ("E2"); call report%section(values//"; theta = 0.6 rad")
-        case ("E6"); call report%section(values)
+        case default; call report%section(values)
         end select
         select case (id)
         case ("E1"); call sign_of_gravity(report, error)

@@ -25,7 +25,7 @@ contains
 
     subroutine begin(self, header, names, units, error)
         !! Header lines behind `# `; the last one names the columns with their units, a word each:
-        !! `p_x[kg*m/s]`, since a blank in a unit is a product, and `rod_of_the_cart[N]`.
+        !! `p_x[kg*m/s]`, since a blank in a unit is a product.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
         type(error_t), allocatable, intent(out) :: error
@@ -39,8 +39,8 @@ contains
         self%counts_at = len(text)
         text = text//"# "//repeat(" ", counts_width)//new_line("a")//"#"
         do i = 1, size(names)
-            text = text//" "//replaced(printable(trim(names(i))), " ", "_")//"["// &
-                   replaced(printable(trim(units(i))), " ", "*")//"]"
+            text = text//" "//replaced(printable(trim(names(i))//"["//trim(units(i))//"]"), &
+                                       " ", "*")
         end do
         call self%file%write(text//new_line("a"))
     end subroutine begin
