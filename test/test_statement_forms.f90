@@ -236,6 +236,11 @@ contains
         call wrong("rotating_hoop", "small: theta_ddot + omega^2 cos(theta_eq)^2 (theta - "// &
                    "theta_eq) = 0", "'cos(theta_eq)' must be 'sin(theta_eq)'")
         call right("rotating_hoop", "small: theta_ddot = -Omega^2 (theta - theta_eq)")
+        call wrong("rotating_hoop", "small: theta_ddot = -Omega^2 (theta + theta_eq)", &
+                   "the sign of 'theta_eq'")
+        call wrong("rotating_hoop", "theta_ddot + theta_eq = omega^2 sin(theta) cos(theta) "// &
+                   "- g/r sin(theta)", "")
+        call wrong("rotating_hoop", "small: V = m g r (1 - cos(theta + 3 theta_eq))", "")
         call right("rotating_hoop", "small: theta_ddot = (omega^2 - g/r) theta")
         call wrong("rotating_hoop", "small: theta_ddot = (omega^2 + g/r) theta", "")
         call right("rotating_hoop", "D = theta - theta_eq"//line_feed// &

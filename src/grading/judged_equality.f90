@@ -18,7 +18,7 @@ module lagrangia_judged_equality
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
     use lagrangia_stated_equilibria, only: another_equilibrium, is_equilibrium
-    use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
+    use lagrangia_statement_forms, only: has_velocities, is_about_other, is_branch, is_motion, &
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
     use lagrangia_term_search, only: context, library_t, part_text
@@ -182,7 +182,8 @@ contains
             call holds(judgement%residual, samples%values, right_one, judged)
             call put_places(samples, samples%other_equilibrium, values)
             call holds(judgement%residual, values, found, judged)
-            if (right_one .or. .not. judged) values = samples%values
+            if (right_one .and. .not. is_about_other(judgement%residual, samples)) judged = .false.
+            if (.not. judged) values = samples%values
         end if
         if (judgement%residual%depends_on(samples%frequency) .or. &
             judgement%residual%depends_on(samples%frequency + 1)) then

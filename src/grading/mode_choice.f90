@@ -8,6 +8,7 @@ module lagrangia_mode_choice
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
+    use lagrangia_statement_forms, only: is_about_other, speaks_of_place
     use lagrangia_term_search, only: library_t
     implicit none (type, external)
     private
@@ -24,20 +25,22 @@ contains
         logical, intent(out) :: right_one            !! it holds for modes
         logical, intent(out) :: found                !! there are modes
         real(dp), allocatable :: first_choice(:, :)
-        logical :: found_one, speaks_of_place
-        integer :: i, n
+        logical :: found_one, only_other
+        integer :: n
 
         n = size(samples%omega2, 2)/2
-        speaks_of_place = any([(residual%depends_on(samples%place(i)), i=1, size(samples%place))])
-        if (speaks_of_place) call put_places(samples, samples%equilibrium, values)
+        only_other = is_about_other(residual, samples)
+        if (speaks_of_place(residual, samples)) call put_places(samples, samples%equilibrium, &
+                                                                values)
         call choose_about(samples%omega2(:, :n), samples%equilibrium, residual, samples, values, &
                           right_one, found)
-        if (right_one) return
+        if (right_one .and. .not. only_other) return
         first_choice = values
-        if (speaks_of_place) call put_places(samples, samples%other_equilibrium, values)
+        if (speaks_of_place(residual, samples)) call put_places(samples, &
+                                                                samples%other_equilibrium, values)
         call choose_about(samples%omega2(:, n + 1:), samples%other_equilibrium, residual, samples, &
                           values, right_one, found_one)
-        if (found .and. .not. right_one) values = first_choice
+        if (found .and. .not. (right_one .or. only_other)) values = first_choice
         found = found .or. found_one
     end subroutine choose_modes
 

@@ -13,7 +13,7 @@ module lagrangia_small_judgement
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_solved_accelerations, only: has_accelerations
-    use lagrangia_statement_forms, only: speaks_of_place
+    use lagrangia_statement_forms, only: is_about_other, speaks_of_place
     use lagrangia_term_search, only: library_t, number_text
     use lagrangia_verdict, only: but_for_constant, is_unreadable, is_wrong, judgement_t, &
                                  put_example
@@ -34,7 +34,7 @@ contains
         type(judgement_t), intent(inout) :: judgement    !! of it
         type(expression_t) :: left, right
         real(dp), allocatable :: values(:, :), shown(:, :)
-        logical :: about_first, about_other, given, judged, right_one
+        logical :: about_first, about_other, given, judged, only_other, right_one
         integer :: first, k
 
         left = written_out(as_typed, samples)
@@ -61,7 +61,8 @@ contains
         call find_rest(.false., about_first)
         about_other = judged .and. (speaks_of_place(judgement%residual, samples) .or. &
                                     (about_other .and. .not. about_first))
-        if (.not. right_one) call compare(.false., .false.)
+        only_other = is_about_other(judgement%residual, samples)
+        if (.not. (right_one .or. only_other)) call compare(.false., .false.)
         if (right_one) then
             call judge_order(left, right, samples, given, .false., .false., shown, explain, &
                              judgement)
@@ -71,7 +72,7 @@ contains
             if (is_negligible(judgement%residual, samples, shown)) return
         end if
         call compare(.true., .true.)
-        if (.not. right_one) call compare(.false., .true.)
+        if (.not. (right_one .or. only_other)) call compare(.false., .true.)
         if (right_one) then
             judgement%remark = "if the coordinates are counted from the equilibrium"
             call judge_order(left, right, samples, given, .false., .true., shown, explain, &
@@ -176,7 +177,7 @@ contains
         logical :: about_other
         integer :: k
 
-        do k = 0, 1
+        do k = merge(1, 0, is_about_other(judgement%residual, samples)), 1
             call compare(k == 1, .false.)
             if (agreement%yes .or. agreement%same_motion) exit
         end do
@@ -187,7 +188,7 @@ contains
                                                 shown, explain, judgement)
             return
         end if
-        do k = 0, 1
+        do k = merge(1, 0, is_about_other(judgement%residual, samples)), 1
             call compare(k == 1, .true.)
             if (.not. agreement%yes .and. .not. agreement%same_motion) cycle
             judgement%remark = "if the coordinates are counted from the equilibrium"

@@ -7,7 +7,7 @@ module lagrangia_statement_forms
                                     kind_quotient, kind_symbol, operator(**), operator(-), &
                                     operator(/), symbol, whole
     use lagrangia_kinds, only: dp
-    use lagrangia_number_class, only: is_nonzero
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
                                       role_velocity, samples_t
     use lagrangia_slip_search, only: holds
@@ -18,7 +18,7 @@ module lagrangia_statement_forms
     public :: define_by_period, define_rates, period, speaks_of_place, without_number
     public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
               tensions
-    public :: has_velocities, is_branch, is_motion, is_slope, means_frequency, &
+    public :: has_velocities, is_about_other, is_branch, is_motion, is_slope, means_frequency, &
               value_remark
 
 contains
@@ -395,6 +395,21 @@ contains
 
         yes = any([(residual%depends_on(samples%place(i)), i=1, size(samples%place))])
     end function speaks_of_place
+
+    pure function is_about_other(residual, samples) result(yes)
+        !! Of `theta_eq` and of what moves, where `theta_eq` is 0 at the first equilibrium and not
+        !! at the other: a slip at it is seen there alone.
+        type(expression_t), intent(in) :: residual  !! left less right side
+        type(samples_t), intent(in) :: samples      !! know both
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        if (.not. (speaks_of_place(residual, samples) .and. &
+                   all(is_zero(samples%equilibrium)))) return
+        yes = any(is_nonzero(samples%other_equilibrium)) .and. &
+              any([(residual%depends_on(k), k=2, 1 + 3*samples%ndof)])
+    end function is_about_other
 
     subroutine define_rates(name, meaning, samples)
         !! `D_dot` and `D_ddot` of a definition, where all in it has rates.
