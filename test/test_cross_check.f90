@@ -254,20 +254,19 @@ contains
     end subroutine the_tolerance_that_is_named
 
     subroutine the_fastest_coordinate_counts()
-        !! Of two pendulums: noise is judged beside the larger velocity, whichever
-        !! coordinate has it.
+        !! Of two pendulums: noise is judged beside the larger velocity, whichever coordinate has
+        !! it, or beside the larger acceleration, by a constant force on one or the other.
         class(system_t), allocatable :: system
         type(dop853_t) :: method
         type(error_t), allocatable :: error
         type(scene_t) :: scene
         real(dp), parameter :: q(2) = [1e8_dp, 1e8_dp]
+        character(16), parameter :: forces(3) = [character(16) :: "0.0, g = 100.0", &
+                                                 "100.0, g = 0.0", "100.0, g = 100.0"]
         real(dp) :: floors(3)
+        integer :: i
 
-        call read_and_plan("&scene system = 'two', dt = 1, duration = 1, q = 0.1, 0.2 / "// &
-                           "&lagrangian coordinates = 'a', 'b', parameters = 'k', "// &
-                           "L = '(a_dot^2 + b_dot^2)/2 + k cos(a) + k cos(b)' / &two k = 0.2 /", &
-                           "s.nml", [word_t ::], scene, system, error)
-        call assertFalse(allocated(error), "two pendulums")
+        call make("0.0, g = 0.0")
         if (allocated(error)) return
         floors(1) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [0.3_dp, 110.0_dp])
         floors(2) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [110.0_dp, 0.3_dp])
@@ -275,6 +274,25 @@ contains
         call assertGreaterThan(floors(3), method%least_tolerance)
         call assertEqual(floors(3), floors(1), 0.0_dp, "the second one")
         call assertEqual(floors(3), floors(2), 0.0_dp, "the first one")
+        do i = 1, 3
+            call make(forces(i))
+            if (allocated(error)) return
+            floors(i) = sensible_tolerance(method, system, 0.0_dp, 1.0_dp, q, [0.3_dp, 0.3_dp])
+        end do
+        call assertGreaterThan(floors(3), method%least_tolerance)
+        call assertEqual(floors(3), floors(1), 0.0_dp, "pushed, the second one")
+        call assertEqual(floors(3), floors(2), 0.0_dp, "pushed, the first one")
+    contains
+        subroutine make(f)
+            character(*), intent(in) :: f
+
+            call read_and_plan("&scene system = 'two', dt = 1, duration = 1, q = 0.1, 0.2 / "// &
+                               "&lagrangian coordinates = 'a', 'b', parameters = 'k', 'f', "// &
+                               "'g', L = '(a_dot^2 + b_dot^2)/2 + k cos(a) + k cos(b) + f a "// &
+                               "+ g b' / &two k = 0.2, f = "//f//" /", "s.nml", [word_t ::], &
+                               scene, system, error)
+            call assertFalse(allocated(error), "two pendulums: f = "//f)
+        end subroutine make
     end subroutine the_fastest_coordinate_counts
 
     subroutine an_estimate_has_the_rounding_in_it()
