@@ -28,7 +28,7 @@ module lagrangia_modes_command
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
                                             likely_equilibrium, modes_t, twin_of
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: in_words, to_text
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: modes_command
@@ -79,7 +79,6 @@ contains
         name = label
         call make_own_name(name, line%values_of("set"), d%parameters%name, &
                            line%value_of("at", ""), title)
-        title = in_words(label)//title(len(label) + 1:)
         stem = data_path(folder, name//"_modes.html", "text")
         page = stem
         stem = stem(:len(stem) - len("_modes.html"))

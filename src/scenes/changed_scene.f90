@@ -4,7 +4,7 @@ module lagrangia_changed_scene
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: is_nonzero
     use lagrangia_scene, only: heading, scene_t, sweep_group_t
-    use lagrangia_text, only: join, lower, to_text, word_t
+    use lagrangia_text, only: in_words, join, lower, to_text, word_t
     implicit none (type, external)
     private
     public :: ending_start, make_own_name, make_own_scene, make_own_sweep
@@ -50,14 +50,14 @@ contains
         type(word_t), intent(in) :: overrides(:)          !! `GROUP%KEY=VALUE`, as typed
         character(*), intent(in) :: names(:)              !! of the system's parameters
         character(*), intent(in) :: at                    !! where else, or nothing
-        character(:), allocatable, intent(out) :: title   !! `pendulum (l=2)`
+        character(:), allocatable, intent(out) :: title   !! `double pendulum (l1=2)`
         character(:), allocatable :: changes, given
 
         call read_changes(overrides, names, changes, given)
         if (at /= "") call add(changes, "at="//at)
-        title = name
+        title = in_words(name)
         if (changes == "") return
-        title = name//" ("//changes//")"
+        title = title//" ("//changes//")"
         name = name//"_"//name_of(changes)
     end subroutine make_own_name
 
