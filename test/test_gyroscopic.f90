@@ -46,7 +46,7 @@ contains
         do i = 1, 3
             one(i, i) = 1.0_dp
         end do
-        do i = 0, 20
+        do i = 0, 60
             b = 10.0_dp**i
             g = b*reshape([0.0_dp, n(3), -n(2), -n(3), 0.0_dp, n(1), n(2), -n(1), 0.0_dp], [3, 3])
             call gyroscopic_modes(one, g, one, lambda, modes, error)

@@ -28,7 +28,8 @@ contains
         call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
                                       every_closed_form_solves_its_equations, setUp=restart_random))
         call suite%addTest(TestMethod("domains_in_words", domains_in_words))
-        call suite%addTest(TestMethod("scales_have_their_units", scales_have_their_units))
+        call suite%addTest(TestMethod("scales_have_their_units", scales_have_their_units, &
+                                      setUp=restart_random))
     end function systems_suite
 
     subroutine every_system_keeps_its_claims()

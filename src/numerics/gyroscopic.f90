@@ -58,7 +58,7 @@ contains
             if (.not. allocated(error)) fast = fast_modes(abs(lambda))
             lambda(fast + 1:) = other(fast + 1:)
             modes(:, fast + 1:) = other_modes(:, fast + 1:)
-            if (.not. allocated(error)) call check_spread(abs(lambda), fast, error)
+            if (.not. allocated(error)) call check_spread(abs(lambda), fast, abs(omega2), error)
         end if
         if (allocated(error)) then
             deallocate (lambda, modes)
@@ -76,24 +76,26 @@ contains
         call sort(lambda, modes)
     end subroutine gyroscopic_modes
 
-    pure subroutine check_spread(size_of, fast, error)
+    pure subroutine check_spread(size_of, fast, squares, error)
         !! Fails where a mode is so far from both the fastest and the slowest one that it is lost
-        !! in the rounding of the matrix that it is solved from.
-        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending, (n)
+        !! in the rounding of the matrix that it is solved from: what is found for it then may be
+        !! anything, but \(\prod_k|\lambda_k|^2 = |\det K|/\det M\), whatever G is.
+        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), (n); descending if none is lost
         integer, intent(in) :: fast         !! how many are solved from the matrix itself
+        real(dp), intent(in) :: squares(:)  !! \(|\omega^2|\) without G, none 0, (n)
         type(error_t), allocatable, intent(out) :: error
         real(dp), parameter :: most = 1e-3_dp  !! `refine` leaves about its square
-        real(dp) :: lost
+        real(dp) :: lost, product
         integer :: k, n
 
         n = size(size_of)
+        product = abs(sum(log(max(size_of, tiny(lost)))) - 0.5_dp*sum(log(squares)))
         do k = 1, n
             lost = merge(size_of(1)/size_of(k), size_of(k)/max(size_of(n), tiny(lost)), &
                          k <= fast)*epsilon(lost)
-            if (.not. lost > most) cycle
-            call fail(error, "with G the frequencies "//to_text(size_of(1))//", "// &
-                      to_text(size_of(k))//" and "//to_text(size_of(n))// &
-                      " rad/s are more digits apart than doubles can tell", status_library)
+            if (.not. (lost > most .or. product > n*most)) cycle
+            call fail(error, "with G the frequencies, the fastest "//to_text(size_of(1))// &
+                      " rad/s, are more digits apart than doubles can tell", status_library)
             return
         end do
     end subroutine check_spread
