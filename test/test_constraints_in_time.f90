@@ -1,6 +1,7 @@
 module test_constraints_in_time
     !! Constraints that contain the time, beside others that do not.
-    use funit, only: TestMethod, TestSuite, assertFalse, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -19,6 +20,7 @@ contains
         suite = TestSuite("constraints_in_time")
         call suite%addTest(TestMethod("one_of_two_constraints_contains_the_time", &
                                       one_of_two_constraints_contains_the_time))
+        call suite%addTest(TestMethod("a_speed_that_is_a_place", a_speed_that_is_a_place))
     end function constraints_in_time_suite
 
     subroutine one_of_two_constraints_contains_the_time()
@@ -44,4 +46,31 @@ contains
             call assertTrue(system%constraints_work, "constraints_work: "//constraints)
         end subroutine judge
     end subroutine one_of_two_constraints_contains_the_time
+
+    subroutine a_speed_that_is_a_place()
+        !! \(\dot x = y\) has no f(t, q) = c and does not contain the time; with \(y + t\) it does,
+        !! and \(\dot x = 2\) has \(x - 2t = c\).
+        call judge("x_dot = y", "nonholonomic, scleronomic")
+        call judge("x_dot - y - t = 0", "nonholonomic, rheonomic")
+        call judge("exp(t) (x_dot - y) = 0", "nonholonomic, scleronomic")
+        call judge("x_dot = 2", "holonomic, rheonomic")
+    contains
+        subroutine judge(constraint, expected)
+            character(*), intent(in) :: constraint, expected
+            class(system_t), allocatable :: system
+            type(description_t) :: d
+            type(error_t), allocatable :: error
+            type(scene_t) :: scene
+            type(word_t) :: none(0)
+
+            call parse_scene("&scene system = 'o', dt = 1, duration = 1, q = 0.5, 1 / "// &
+                             "&lagrangian coordinates = 'x', 'y', parameters = 'm', "// &
+                             "T = 'm/2 (x_dot^2 + y_dot^2)', constraint = '"//constraint// &
+                             "' / &o m = 1 /", "text", none, scene, system, error)
+            call assertFalse(allocated(error), "read: "//constraint)
+            if (allocated(error)) return
+            call system%describe(d)
+            call assertEqual(expected, d%constraint, constraint)
+        end subroutine judge
+    end subroutine a_speed_that_is_a_place
 end module test_constraints_in_time

@@ -66,7 +66,7 @@ contains
                    "'theta' must be 'theta_dot' in ")
         call named("oscillator", "m x_dot + k x = 0", "'x_dot' must be 'x_ddot' in 'm x_dot'")
         call named("oscillator", "m x_ddot + k x + m x = 0", "'m x' does not belong there")
-        call named("oscillator", "E = m/2 x_dot^2", "on the left is missing ")
+        call named("oscillator", "E = m/2 x_dot^2", "on the right is missing k/2 x^2")
         call named("cart_pendulum", "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) = 0", &
                    "on the left is missing -m2 l theta_dot^2 sin(theta)")
         call named("pendulum", "L = m/2 l^2 theta_dot^2 - m g l cos(theta)", &
@@ -168,19 +168,21 @@ contains
         call assertEqual(is_right, result%of(1)%verdict, result%of(1)%remark)
         call assertEqual(0, result%equations, "where the bob is says nothing of its motion")
         ! numbers in half of the states only, and an acceleration that is 0 in all
-        call determines("pendulum", "sqrt(theta_ddot) = sqrt(-g/l sin(theta))")
-        call determines("pendulum", "sqrt(-theta_ddot) = sqrt(g/l sin(theta))")
-        call determines("rolling_disk", "phi_ddot = 0")
+        call determines("pendulum", "sqrt(theta_ddot) = sqrt(-g/l sin(theta))", 1)
+        call determines("pendulum", "sqrt(-theta_ddot) = sqrt(g/l sin(theta))", 1)
+        call determines("rolling_disk", "phi_ddot = 0", 1)
+        call determines("pendulum", "small: F = m g", 0)
     contains
-        subroutine determines(name, statement)
+        subroutine determines(name, statement, accelerations)
             character(*), intent(in) :: name, statement
+            integer, intent(in) :: accelerations
 
             call new_system(name, system, error)
             call parse_homework("system: "//name//line_feed//statement, "sheet", homework, error)
             call grade(homework, system, result, error)
             call assertEqual(is_right, result%of(1)%verdict, statement)
-            call assertEqual(1, result%equations, statement)
-            call assertEqual(1, count(result%determined), message=statement)
+            call assertEqual(accelerations, result%equations, statement)
+            call assertEqual(accelerations, count(result%determined), message=statement)
         end subroutine determines
     end subroutine which_accelerations_follow
 
@@ -309,7 +311,7 @@ contains
             "; gamma = b/(2 m l^2); gamma = b/(m l^2); omega_0^2 = g/l; omega^2 = g/l"// &
             "; omega^2 = omega_0^2 - gamma^2; omega = sqrt(omega_0^2 - gamma^2)"// &
             "; omega^2 = omega_0^2 + gamma^2", remarks="8 the sign of 'gamma^2'"// &
-            "; 5 on the left is missing gamma^2; 3 'b/(m l^2)' must be counted 1/2 times")
+            "; 5 on the right is missing -gamma^2; 3 'b/(m l^2)' must be counted 1/2 times")
         call traced("oscillator", "rrw", "m x_ddot + b x_dot + k x = 0"// &
             "; omega^2 = k/m - (b/(2 m))^2; omega^2 = k/m - b/(2 m)", &
             remarks="3 'b/(2 m)' must be squared")

@@ -134,10 +134,10 @@ contains
         call judged("E = m/2 (r_dot^2 + r^2 theta1_dot^2) + I/2 theta2_dot^2 + k/2 (r - l0)^2 "// &
                     "+ D (1 - cos(theta1)) + D (1 - cos(theta2 - theta1))", is_right, "")
         call judged("E = m/2 (r_dot^2 + r^2 theta1_dot^2) + I/2 theta2_dot^2 + k/2 (r - l0)^2 "// &
-                    "+ D (1 - cos(theta1))", is_wrong, "missing -D (1 - cos(theta2 - theta1))")
+                    "+ D (1 - cos(theta1))", is_wrong, "missing D (1 - cos(theta2 - theta1))")
         call judged("E = m/2 (r_dot^2 + r^2 theta1_dot^2) + k/2 (r - l0)^2 "// &
                     "+ D (1 - cos(theta1)) + D (1 - cos(theta2 - theta1))", is_wrong, &
-                    "missing -I/2 theta2_dot^2")
+                    "missing I/2 theta2_dot^2")
         call judged("m r^2 theta1_ddot + D sin(theta1) - D sin(theta2 - theta1) = 0", is_wrong, &
                     "missing 2 m r r_dot theta1_dot")
         call judged("V = k/2 (r - l0)^2 - D cos(theta1) - D cos(theta2 - theta1)", is_right, "")

@@ -63,7 +63,7 @@ contains
             "theta_dot + m2 g l theta^2/2; small: V = m1 g l theta^2/2"// &
             "; small: T = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta"// &
             "; small: T = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2", &
-            remarks="5 'm1' must be 'm2'; 6 'theta' must be 'theta_dot'; 7 on the left is missing")
+            remarks="5 'm1' must be 'm2'; 6 'theta' must be 'theta_dot'; 7 on the right is missing")
         call traced("double_pendulum", "rrrwwr", "small: L = T - V"// &
             "; small: V = (m1 + m2) g l1 theta1^2/2 + m2 g l2 theta2^2/2"// &
             "; small: T = (m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2 + "// &
@@ -81,7 +81,7 @@ contains
             "omega^2 theta^2); small: V = m g r theta^2/2"// &
             "; small: L = m/2 r^2 theta_dot^2 - m r (g - r omega^2) theta^2/2"// &
             "; small: E = m/2 r^2 theta_dot^2 + m r (g - r omega^2) theta^2/2"// &
-            "; small: T = m/2 r^2 theta_dot^2", remarks="5 on the left is missing")
+            "; small: T = m/2 r^2 theta_dot^2", remarks="5 on the right is missing")
         call traced("hanging_chain", "rrww", "small: V = m g l/6 (3 theta1^2 + 2 theta2^2 + "// &
             "theta3^2); small: L = T - m g l/6 (3 theta1^2 + 2 theta2^2 + theta3^2)"// &
             "; small: V = m g l/6 (3 theta1^2 + 2 theta2^2 - theta3^2)"// &

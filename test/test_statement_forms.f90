@@ -191,9 +191,9 @@ contains
     subroutine several_letters_are_missing()
         !! A term or a factor with several letters, named with all of them.
         call wrong("rotating_hoop", "theta_ddot = -g/r sin(theta)", &
-                   "on the left is missing -omega^2 sin(theta) cos(theta)")
+                   "on the right is missing omega^2 sin(theta) cos(theta)")
         call wrong("double_pendulum", "p_theta1 = (m1 + m2) l1^2 theta1_dot", &
-                   "on the left is missing -m2 l1 l2 theta2_dot cos(D)")
+                   "on the right is missing m2 l1 l2 theta2_dot cos(D)")
         call wrong("cart_pendulum", "omega^2 = g/l", "'g/l' lacks the factor '(m1 + m2)/m1'")
         call wrong("cart_pendulum", "omega^2 = g/l m2/(m1 + m2)", &
                    "'g/l m2/(m1 + m2)' lacks the factor '(m1 + m2)^2/(m1 m2)'")

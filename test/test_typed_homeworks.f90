@@ -47,14 +47,14 @@ contains
             "; T = (m1 + m2)/2 x_dot^2 + I x_dot^2/R^2; x_ddot = (m1-m2)/(m1+m2)*g"// &
             "; tension1 = tension2; p_x = const", &
             remarks="9 'R' must have the exponent 2; 10 'I x_dot^2/R^2' must be counted 1/2"// &
-            "; 11 on the left is missing; 12 on the left is missing -I/R^2 x_ddot"// &
+            "; 11 on the right is missing; 12 on the right is missing I/R^2 x_ddot"// &
             "; 13 its rate is (m1 - m2) g: dL/dx is not 0")
         call traced("rotating_hoop", "rrrrrwwww", "V = m g r (1 - cos(theta)); V = m g z_bead"// &
             "; r theta_ddot - r omega^2 sin(2 theta)/2 + g sin(theta) = 0"// &
             "; Omega = sqrt(omega^2 - g^2/(r^2 omega^2)); Omega = sqrt(g/r - omega^2)"// &
             "; Omega = sqrt(g/r + omega^2); Omega = sqrt(omega^2 - g/r)"// &
             "; E = T + V; cos(theta_eq) = g/(r omega)", &
-            remarks="6 squared: the sign of 'omega^2'; 8 on the left is missing m r^2 omega^2"// &
+            remarks="6 squared: the sign of 'omega^2'; 8 on the right is missing -m r^2 omega^2"// &
             "; 9 'omega' must have the exponent 2")
         call traced("driven_pendulum", "rrrrwwww", "y_bob_dot = -a W sin(W t) + "// &
             "l theta_dot sin(theta); T = m/2 (l^2 theta_dot^2 - 2 a W l theta_dot sin(W t) "// &

@@ -26,6 +26,9 @@ contains
         call suite%addTest(TestMethod("constants_of_the_motion", constants_of_the_motion))
         call suite%addTest(TestMethod("one_sign_of_a_root", one_sign_of_a_root))
         call suite%addTest(TestMethod("further_slips", further_slips))
+        call suite%addTest(TestMethod("slopes_of_energies", slopes_of_energies))
+        call suite%addTest(TestMethod("values_at_rest", values_at_rest))
+        call suite%addTest(TestMethod("what_a_side_lacks", what_a_side_lacks))
     end function usual_forms_suite
 
     subroutine hamilton()
@@ -46,7 +49,7 @@ contains
                   "p_1 p_2 cos(theta1 - theta2))/(2 m2 l1^2 l2^2 (m1 + m2 sin(theta1 - "// &
                   "theta2)^2)) - (m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2)", is_right, "")
         call says("rotating_hoop", "H = T + V", is_wrong, &
-                  "on the left is missing m r^2 omega^2 sin(theta)^2")
+                  "on the right is missing -m r^2 omega^2 sin(theta)^2")
         call says("cart_pendulum", "H = T + V", is_right, "")
         call says("cart_pendulum", "H = const", is_right, "")
     end subroutine hamilton
@@ -102,8 +105,7 @@ contains
         call says("atwood", "S = 2 m1 m2 g/(m1 + m2)", is_right, "as tension1")
         call says("pendulum", "T = m g cos(theta) + m l theta_dot^2", is_right, "")
         call says("pendulum", "T = m g cos(theta) - m l theta_dot^2", is_wrong, &
-                  "two changes: 'T' lacks the factor '(-2)/l'; 'm g cos(theta)' does not "// &
-                  "belong there")
+                  "the sign of 'm l theta_dot^2'")
         call says("wedge", "N (M + m sin(alpha)^2) = M m g cos(alpha)"//line_feed// &
                   "N = M m g cos(alpha)/(M + m sin(alpha)^2)", is_right, "as normal_force")
     end subroutine string_tensions
@@ -179,7 +181,7 @@ contains
                   "'theta1 + theta2' must be 'theta1 - theta2' in all places")
         call says("pendulum", "T = 2 pi l/g", is_wrong, "a square root is missing behind '2 pi'")
         call says("rotating_hoop", "Omega = sqrt(g/r)", is_wrong, &
-                  "squared: on the left is missing omega^2")
+                  "squared: on the right is missing -omega^2")
         call says("cart_pendulum", "T = m1/2 x_dot^2 + m2/2 l^2 theta_dot^2", is_wrong, &
                   "on the right is missing m2/2 x_dot^2 + m2 l x_dot theta_dot cos(theta)")
         call says("cart_pendulum", "T = 1", is_wrong, &
@@ -192,6 +194,59 @@ contains
         call says("wedge", "T = M/2 q2_dot^2 + m/2 q1_dot^2", is_wrong, &
                   "on the right is missing m q1_dot q2_dot cos(alpha) + m/2 q2_dot^2")
     end subroutine further_slips
+
+    subroutine slopes_of_energies()
+        !! E in q and its velocity, also where it is not T + V. What is written out on the left is
+        !! not to be mended.
+        call says("pendulum", "dE/dtheta = m g l sin(theta)", is_right, "")
+        call says("pendulum", "dE/dtheta_dot = m l^2 theta_dot", is_right, "")
+        call says("pendulum", "dE/dtheta_dot = p_theta", is_right, "")
+        call says("pendulum", "dE/dtheta = -m g l sin(theta)", is_wrong, &
+                  "the sign of '-m g l sin(theta)'")
+        call says("rotating_hoop", "dE/dtheta = m g r sin(theta) - "// &
+                  "m r^2 omega^2 sin(theta) cos(theta)", is_right, "")
+        call says("double_pendulum", "dE/dtheta1_dot = p_theta1", is_right, "")
+        call says("cart_pendulum", "dE/dtheta = m2 g l sin(theta) - "// &
+                  "m2 l x_dot theta_dot sin(theta)", is_right, "")
+        call says("pendulum", "V'(theta) = m g l cos(theta)", is_wrong, &
+                  "'cos(theta)' must be 'sin(theta)' in 'm g l cos(theta)'")
+        call says("pendulum", "d^2T/dtheta_dot^2 = m l^3", is_wrong, &
+                  "the exponent of 'l^3' must be 2 in 'm l^3'")
+        call says("oscillator", "Q_x = -3*b x_dot", is_wrong, &
+                  "'3 b x_dot' must be counted 1/3 times")
+    end subroutine slopes_of_energies
+
+    subroutine values_at_rest()
+        !! What begins at rest at an equilibrium stays there: T is no period, L a number. A rate of
+        !! a momentum that is 0 on any motion is not three times itself.
+        character(*), parameter :: hangs = "theta(0) = 0"//line_feed//"theta_dot(0) = 0"// &
+                                           line_feed
+        character(*), parameter :: stands = "x_dot(0) = 0"//line_feed
+        character(*), parameter :: free = "set: magnetic = 0, 0, 0"//line_feed// &
+            "set: electric = 0, 0, 0"//line_feed//"set: trap = 0"//line_feed
+
+        call says("pendulum", hangs//"L = m g l", is_right, "of the motion that begins so")
+        call says("pendulum", hangs//"T = 0", is_right, "of the motion that begins so")
+        call says("cart_pendulum", stands//hangs//"dL/dx_dot = 0", is_right, &
+                  "of the motion that begins so")
+        call says("pendulum", "theta(0) = 0.1"//line_feed//"theta_dot(0) = 0"//line_feed// &
+                  "T = 0", is_wrong, "on the right is missing m/2 l^2 theta_dot^2")
+        call says("charged_particle", free//"d/dt dL/dx_dot = m x_ddot", is_right, "")
+        call says("charged_particle", free//"d/dt dL/dx_dot = 3 m x_ddot", is_wrong, &
+                  "'3 m x_ddot' must be counted 1/3 times")
+        call says("charged_particle", free//"3 m x_ddot = 0", is_right, "")
+    end subroutine values_at_rest
+
+    subroutine what_a_side_lacks()
+        !! Of a name alone the other side lacks it; a letter that a term has not is not too many.
+        call says("pendulum", "tension = m l theta_dot^2", is_wrong, &
+                  "on the right is missing m g cos(theta)")
+        call says("cart_pendulum", "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) = 0", is_wrong, &
+                  "on the left is missing -m2 l theta_dot^2 sin(theta)")
+        call says("pendulum", "small: theta_ddot = -g/l", is_wrong, "'g/l' lacks the factor 'theta'")
+        call says("pendulum", "omega = 0", is_wrong, "no single change of a sign, letter, dot, "// &
+                  "factor, function, exponent or term makes it right")
+    end subroutine what_a_side_lacks
 
     subroutine says(system, statement, verdict, remark)
         !! Of the last line of several.

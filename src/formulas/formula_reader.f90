@@ -308,7 +308,7 @@ contains
         do i = 1, size(names)
             derived(i) = index(names(i), "_dot") > 0 .or. index(names(i), "_ddot") > 0 .or. &
                          index(names(i), "dL_d") > 0 .or. index(names(i), "dT_d") == 1 .or. &
-                         index(names(i), "dV_d") == 1
+                         index(names(i), "dV_d") == 1 .or. index(names(i), "dE_d") == 1
         end do
         few = names
         if (size(names) > 12) few = pack(names, .not. derived)

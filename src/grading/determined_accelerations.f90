@@ -17,12 +17,13 @@ module lagrangia_determined_accelerations
 
 contains
 
-    subroutine find_determined(samples, judgements, equations, determined)
+    subroutine find_determined(samples, judgements, small, equations, determined)
         !! The accelerations that follow from the right statements: \(\partial R/\partial\ddot q\)
         !! of their residuals, and of the rates of those between velocities, has a unit vector among
         !! its combinations of rows in which no force of a constraint is left.
         type(samples_t), intent(in) :: samples              !! on the motion
         type(judgement_t), intent(in) :: judgements(:)      !! of all statements
+        logical, intent(in) :: small(:)                     !! of each: true to first order only
         integer, intent(out) :: equations                   !! that have accelerations in them
         logical, allocatable, intent(out) :: determined(:)  !! of each acceleration, (ndof)
         type(expression_t) :: equation
@@ -37,7 +38,7 @@ contains
         allocate (rows(size(judgements) + 1, size(columns)), source=0.0_dp)
         equations = 0
         do i = 1, size(judgements)
-            if (judgements(i)%verdict /= is_right) cycle
+            if (judgements(i)%verdict /= is_right .or. small(i)) cycle
             call find_equation(judgements(i), samples, equation)
             if (equation%count == 0) cycle
             call differentiate(equation, samples, columns, rows(i, :))

@@ -12,9 +12,10 @@ module lagrangia_further_slips
     use lagrangia_number_class, only: all_finite
     use lagrangia_sample_names, only: draws, role_coordinate, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes, summands
+    use lagrangia_simple_numbers, only: number_text
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
-    use lagrangia_term_search, only: context, gather_letters, library_t, number_text, part_text
+    use lagrangia_term_search, only: context, gather_letters, library_t, missing, part_text
     use lagrangia_written_out, only: energy_formulas, energy_places, written_out
     implicit none (type, external)
     private
@@ -158,6 +159,7 @@ contains
         associate (ratio => of_left(:, left%count)**2/of_right(:, right%count))
             if (.not. all_finite(ratio)) return
             if (maxval(ratio) - minval(ratio) > equal*maxval(abs(ratio))) return
+            if (.not. maxval(abs(ratio)) > 0.0_dp) return
             if (maxval(of_right(:, right%count)) - minval(of_right(:, right%count)) <= &
                 equal*maxval(abs(of_right(:, right%count)))) return
             text = "a square root is missing"
@@ -185,7 +187,9 @@ contains
             call gather_letters(samples, library, letters)
             call find_product(needed(1::states), letters, product, found)
         end associate
-        if (found) text = "on the left is missing "//formula_text(product, samples%symbols)
+        if (found) text = missing(expression, formula_text(product, samples%symbols), &
+                                  formula_text(simplified(-product, samples%symbols), &
+                                               samples%symbols))
     end subroutine try_letters
 
     subroutine try_parts(expression, before, samples, values, library, text)

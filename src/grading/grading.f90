@@ -105,7 +105,8 @@ contains
         end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
-        call find_determined(samples, result%of, result%equations, result%determined)
+        call find_determined(samples, result%of, homework%statements%small, result%equations, &
+                             result%determined)
     contains
         subroutine insist(name, line)
             !! The sheet with a name in its usual meaning, if that is better.

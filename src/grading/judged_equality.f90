@@ -45,6 +45,7 @@ contains
         type(judgement_t), intent(inout) :: judgement      !! of it
         type(judgement_t) :: attempt
         type(expression_t) :: one, other
+        logical :: either
         integer :: i
 
         attempt%remark = ""
@@ -59,9 +60,9 @@ contains
             if (one%count == 0) exit
             attempt%verdict = is_right
             call judge_pair(one, other, chained, samples, library, explain .and. i == 1, attempt)
-            if (attempt%verdict == is_right .or. (i == 1 .and. (judgement%verdict == &
-                is_unreadable .or. .not. (has_velocities(one - other, samples) .or. &
-                                          attempt%is_unexplained)))) judgement = attempt
+            either = has_velocities(one - other, samples) .or. other%nodes(1)%kind == kind_number
+            if (attempt%verdict == is_right .or. (i == 1 .and. is_nearer( &
+                attempt, judgement, either))) judgement = attempt
             if (attempt%verdict == is_right) exit
         end do
         if (judgement%verdict /= is_wrong) return
@@ -98,6 +99,21 @@ contains
             holds_elsewhere = holds_to_digits(left, right, text, there)
         end function holds_elsewhere
     end subroutine judge_forms
+
+    pure function is_nearer(attempt, judgement, either) result(yes)
+        !! Is T rather the force that a string pulls with? Where it may be either, if a narrower
+        !! change makes the line right.
+        type(judgement_t), intent(in) :: attempt    !! with the force
+        type(judgement_t), intent(in) :: judgement  !! with the kinetic energy, not right
+        logical, intent(in) :: either               !! velocities, or a number, are in the line
+        logical :: yes
+
+        yes = judgement%verdict == is_unreadable
+        if (yes .or. attempt%is_unexplained) return
+        yes = .not. either
+        if (either .and. .not. attempt%explanation%is_empty()) yes = &
+            attempt%explanation%width < judgement%explanation%width
+    end function is_nearer
 
     pure function is_rate(left, right, text) result(yes)
         !! A derivative with respect to the time that somebody has written out on the right side,
@@ -198,6 +214,10 @@ contains
             judged = .true.
         else
             call holds(judgement%residual, values, right_one, judged)
+            if (right_one .and. is_rate_of_nothing(left, right, samples)) then
+                values = off_motion(samples)
+                call holds(judgement%residual, values, right_one, judged)
+            end if
         end if
         if (is_motion(left, right, samples)) then
             judgement%verdict = is_unreadable
@@ -248,6 +268,42 @@ contains
             call judgement%say_why()
         end subroutine explain_it
     end subroutine judge_pair
+
+    function is_rate_of_nothing(left, right, samples) result(yes)
+        !! `d/dt dL/dy_dot = 3 m y_ddot` where nothing pulls along y: the rate of a momentum alone
+        !! on the left, which is 0 on the motion, and accelerations on the right. Said is what that
+        !! rate is, whatever the acceleration.
+        type(expression_t), intent(in) :: left, right  !! both sides, equal on the motion
+        type(samples_t), intent(in) :: samples         !! on the motion
+        logical :: yes, judged
+        integer :: k
+
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol .and. allocated(samples%mass)
+        if (yes) yes = index(samples%symbols%names(left%nodes(1)%which), "d_dt_dL_d") == 1
+        if (yes) yes = any([(right%depends_on(samples%first_acceleration + k), &
+                             k=0, samples%ndof - 1)])
+        if (yes) call holds(left, samples%values, yes, judged)
+    end function is_rate_of_nothing
+
+    pure function off_motion(samples) result(values)
+        !! The same states with larger accelerations, and the rates of the momenta that go with
+        !! them.
+        type(samples_t), intent(in) :: samples         !! with the mass matrix
+        real(dp), allocatable :: values(:, :)          !! (states, symbols)
+        real(dp) :: more(samples%ndof)
+        integer :: j, k, row
+
+        values = samples%values
+        more = [(1.0_dp + 0.25_dp*k, k=1, samples%ndof)]
+        do row = 1, size(values, 1)
+            do j = 1, samples%ndof
+                k = samples%first_acceleration + j - 1
+                values(row, k) = values(row, k) + more(j)
+                k = samples%symbols%find("d_dt_dL_d"//trim(samples%symbols%names(1 + j))//"_dot")
+                values(row, k) = values(row, k) + dot_product(samples%mass(j, :, row), more)
+            end do
+        end do
+    end function off_motion
 
     function why_no_number(residual, values) result(reason)
         !! What keeps a statement from having a value.

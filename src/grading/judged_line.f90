@@ -89,7 +89,8 @@ contains
             call solve_or_refuse()
             return
         end if
-        chained = is_slope(side) .or. is_usual(side, samples) .or. begun > 1
+        chained = is_slope(side) .or. is_usual(side, samples) .or. begun > 1 .or. &
+                  samples%symbols%find_definition(trim(adjustl(side))) > 0
         do
             first = next + 1
             last = index(text(first:), "=")

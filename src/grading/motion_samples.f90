@@ -9,7 +9,7 @@ module lagrangia_motion_samples
     use lagrangia_gauss_principle, only: masses_of, place_points
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_lagrange, only: energy_slopes, euler_lagrange_t, expand_lagrangian
     use lagrangia_mode_samples, only: add_modes, put_places, stable_somewhere
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_number_class, only: all_finite, is_nonzero
@@ -354,7 +354,7 @@ contains
 
         subroutine put_derivatives()
             type(hyperdual_t) :: tt, qq(system%ndof), vv(system%ndof), l
-            real(dp) :: gain, scale
+            real(dp) :: by_q(system%ndof), by_v(system%ndof), gain, scale
             integer :: j
 
             gain = 0.0_dp
@@ -389,6 +389,11 @@ contains
             tt = hyperdual_t(t, d1=1.0_dp)
             l = system%lagrangian(tt, hyperdual(q), hyperdual(v))
             call put("dL_dt", l%d1)
+            call energy_slopes(system, t, q, v, by_q, by_v)
+            do j = 1, system%ndof
+                call put("dE_d"//trim(d%coordinates(j)%name), by_q(j))
+                call put("dE_d"//trim(d%coordinates(j)%name)//"_dot", by_v(j))
+            end do
         end subroutine put_derivatives
 
         pure subroutine drop_rounding(scale, x)

@@ -204,6 +204,8 @@ contains
             call add(trim(samples%symbols%names(1 + i))//"_eq", role_known)
             samples%place(i) = samples%symbols%find(trim(samples%symbols%names(1 + i))//"_eq")
         end do
+        call add_each("dE_d", "", role_known)
+        call add_each("dE_d", "_dot", role_known)
         call name_rates(samples)
         call define_derivatives(d, samples)
         call compile_letters(d, samples)

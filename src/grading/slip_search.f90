@@ -15,7 +15,8 @@ module lagrangia_slip_search
                                          change_exponent, change_factor, change_function, &
                                          change_multiplied, change_number, change_sign, &
                                          change_symbol, change_t, evaluate_nodes, summands
-    use lagrangia_term_search, only: context, library_t, number_text, part_text, try_factors, &
+    use lagrangia_simple_numbers, only: number_text
+    use lagrangia_term_search, only: context, library_t, part_text, try_factors, &
                                      try_missing_terms, try_products
     use lagrangia_wide_changes, only: place_from, throughout, two_factors
     implicit none (type, external)
@@ -366,7 +367,8 @@ contains
                     if (mends(change_t(change_multiplied, i, k))) then
                         text = node_text(i)//" lacks the factor '"// &
                             trim(samples%symbols%names(k))//"'"
-                    else if (mends(change_t(change_divided, i, k))) then
+                    else if (expression%depends_on(k) .and. &
+                             mends(change_t(change_divided, i, k))) then
                         text = node_text(i)//" has the factor '"//trim(samples%symbols%names(k))// &
                                "' too many"
                     else

@@ -8,13 +8,14 @@ module lagrangia_small_judgement
     use lagrangia_order_of_approximation, only: is_linear, is_negligible, order_that_fails
     use lagrangia_sample_names, only: role_acceleration, role_known, role_parameter, &
                                       role_time, samples_t, states
+    use lagrangia_simple_numbers, only: number_text
     use lagrangia_slip_search, only: explain_slip, holds
     use lagrangia_small_driven_motion, only: is_driven, judge_driven
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_statement_forms, only: is_about_other, speaks_of_place
-    use lagrangia_term_search, only: library_t, number_text
+    use lagrangia_term_search, only: library_t
     use lagrangia_verdict, only: but_for_constant, is_unreadable, is_wrong, judgement_t, &
                                  put_example
     use lagrangia_written_out, only: energy_places, in_coordinates, written_out

@@ -55,7 +55,7 @@ contains
             end if
             ! on one motion E is any number, but for a constant
             if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
-            if (speaks_of_all(result(i)%residual, samples)) cycle
+            if (speaks_of_all(result(i)%residual, samples, at_rest)) cycle
             result(i) = attempt(i)
             result(i)%remark = "of the motion that begins so"
         end do
@@ -79,7 +79,7 @@ contains
         type(samples_t), intent(in) :: samples          !! of all motions
         type(judgement_t), intent(inout) :: result(:)   !! wrong, or one that follows
 
-        if (speaks_of_all(result(i)%residual, samples)) return
+        if (speaks_of_all(result(i)%residual, samples, .false.)) return
         select case (there%verdict)
         case (is_wrong)
             if (result(i)%verdict == is_consequence) then
@@ -113,18 +113,24 @@ contains
         end do
     end function speaks_of_place
 
-    pure function speaks_of_all(residual, samples) result(yes)
-        !! Has it accelerations, L or its derivatives?
+    pure function speaks_of_all(residual, samples, of_values) result(yes)
+        !! Has it accelerations, L or its derivatives? Of what stays at rest L and the momenta are
+        !! numbers, as E is.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
+        logical, intent(in) :: of_values  !! what is said of L and the momenta is their value
         logical :: yes
         integer :: k
 
         yes = .false.
         do k = 1, size(samples%role)
             if (.not. residual%depends_on(k)) cycle
-            yes = yes .or. samples%role(k) == role_acceleration .or. &
-                  samples%symbols%names(k) == "L" .or. index(samples%symbols%names(k), "dL_") > 0
+            associate (name => samples%symbols%names(k))
+                if (of_values .and. (name == "L" .or. (index(name, "dL_d") == 1 .and. &
+                                                       index(name, "_dot") > 0))) cycle
+                yes = yes .or. samples%role(k) == role_acceleration .or. name == "L" .or. &
+                      index(name, "dL_") > 0
+            end associate
         end do
     end function speaks_of_all
 end module lagrangia_stated_motion

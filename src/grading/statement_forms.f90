@@ -4,8 +4,8 @@ module lagrangia_statement_forms
     use lagrangia_derivative, only: time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: constant, expression_t, f_sqrt, kind_function, &
-                                    kind_quotient, kind_symbol, operator(**), operator(-), &
-                                    operator(/), symbol, whole
+                                    kind_number, kind_quotient, kind_symbol, operator(**), &
+                                    operator(-), operator(/), symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
@@ -161,14 +161,19 @@ contains
     end function is_new_name
 
     pure function is_slope(text) result(yes)
-        !! `dV/dx` or `dT/dx_dot` alone, which stands for a formula that is right.
+        !! `dV/dx`, `d^2T/dx_dot^2` or `V'(x)` alone, which stands for a formula that is right.
         character(*), intent(in) :: text  !! the left side, as typed
         logical :: yes
+        character(*), parameter :: energies = "LTVUEHK"
         character(len(text)) :: name
+        integer :: at
 
         name = adjustl(text)
-        yes = any(name(:min(4, len(name))) == ["dV/d", "dT/d"]) .and. &
-              scan(trim(name), " +-*^()") == 0
+        at = 1
+        if (name(:1) == "d") at = 1 + verify(name(2:), "^2 ")
+        yes = scan(name(at:at), energies) == 1 .and. scan(trim(name), "+-*=") == 0
+        if (yes .and. at > 1) yes = index(adjustl(name(at + 1:)), "/d") == 1
+        if (yes .and. at == 1) yes = name(2:2) == "'"
     end function is_slope
 
     pure subroutine read_as_period(left, right, samples, is_period)
@@ -182,6 +187,8 @@ contains
 
         letter = period_letter(left - right, samples)
         if (letter == 0) return
+        if (right%count == 1 .and. is_zero(right%nodes(1)%number%value) .and. &
+            right%nodes(1)%kind == kind_number) return  ! `T = 0` is of what rests
         is_period = is_period .or. .not. right%depends_on(letter)
         meaning(1) = period(samples)
         left = substituted(left, [letter], meaning)

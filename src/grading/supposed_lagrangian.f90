@@ -93,7 +93,8 @@ contains
             samples%values(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
         end do
         do k = 1, size(samples%role)
-            if (all(samples%symbols%names(k) /= ["L_dot", "dL_dt"])) cycle
+            if (all(samples%symbols%names(k) /= ["L_dot", "dL_dt"]) .and. &
+                index(samples%symbols%names(k), "dE_d") /= 1) cycle
             samples%values(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
         end do
     end subroutine forget_quantities

@@ -2,28 +2,25 @@ module lagrangia_term_search
     !! Which term of a wrong statement must be counted otherwise, or has a letter, a dot or a
     !! function too many or too few; which one is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use, intrinsic :: iso_fortran_env, only: int64
     use lagrangia_canonical_form, only: simplified
-    use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(*)
+    use lagrangia_expression, only: expression_t, kind_difference, kind_function, kind_symbol, &
+                                    operator(*), operator(-)
     use lagrangia_formula_text, only: formula_text, typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
     use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
-    use lagrangia_number_text, only: rounded
     use lagrangia_sample_names, only: draws, role_known, role_parameter, role_velocity, samples_t, &
                                       states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
-    use lagrangia_text, only: to_text
+    use lagrangia_simple_numbers, only: is_simple, number_text, times
     implicit none (type, external)
     private
     public :: library_t
     public :: gather_letters
-    public :: context, number_text, part_text
+    public :: context, missing, part_text
     public :: try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
-    real(dp), parameter :: pi = acos(-1.0_dp)
-    real(dp), parameter :: largest = 1e15_dp  !! of a fraction: beyond it all numbers are whole
     real(dp), parameter :: small_velocity = 1e-4_dp  !! of which only the first order counts
     integer, parameter :: enough = 4        !! samples at which all is finite
 
@@ -102,7 +99,7 @@ contains
         real(dp), allocatable :: results(:, :), signs(:), needed(:), term(:, :)
         integer, allocatable :: nodes(:)
         character(:), allocatable :: text
-        integer :: i, k, m, pass
+        integer :: k, turn
         logical :: small
 
         remark = ""
@@ -113,11 +110,22 @@ contains
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
         small = is_of_small_motion(samples, values)
-        do k = 1, size(nodes)
-            if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
-            call find_needed(results, nodes, signs, k, small, needed, is_surplus)
-            text = part_text(expression, nodes(k), samples)
-            if (count(ieee_is_finite(needed)) < enough) cycle
+        do turn = 1, 2  ! divided by what it does not have only if nothing else does it
+            do k = 1, size(nodes)
+                if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
+                call find_needed(results, nodes, signs, k, small, needed, is_surplus)
+                text = part_text(expression, nodes(k), samples)
+                if (count(ieee_is_finite(needed)) < enough) cycle
+                call try_summand()
+                if (remark /= "") return
+            end do
+        end do
+    contains
+        subroutine try_summand()
+            !! The one at hand, `nodes(k)`.
+            type(expression_t) :: part
+            integer :: i, m, pass
+
             if (is_surplus) then
                 remark = text//" does not belong there"
                 if (is_alone(k)) remark = text//" is not 0"
@@ -126,12 +134,14 @@ contains
                                                    number_text(needed(1))//" times"
             end if
             if (remark /= "") return
+            part = expression%pruned(nodes(k))
             do pass = 1, 2  ! the statement's own letters first
                 do i = 1, size(samples%role)
                     if (samples%role(i) > role_parameter) cycle
                     if (expression%depends_on(i) .neqv. pass == 1) cycle
                     if (makes_same_sides(i)) cycle
-                    call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
+                    call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'", &
+                                    part%depends_on(i))
                     if (remark == "") cycle
                     do m = 1, size(samples%compiled)
                         is_vague = is_vague .or. (samples%compiled(m)%symbol == i .and. &
@@ -146,12 +156,12 @@ contains
                     if (allocated(term)) deallocate (term)
                     allocate (term(size(values, 1), library(i)%term%count))
                     call evaluate_nodes(library(i)%term, values, term)
-                    call try_letter(term(:, m), part_text(library(i)%term, m, samples))
+                    call try_letter(term(:, m), part_text(library(i)%term, m, samples), .false.)
                     if (remark /= "") return
                 end do
             end do
-        end do
-    contains
+        end subroutine try_summand
+
         logical function makes_same_sides(letter)
             !! Of two terms, is one this letter alone? With it in the other, theta = theta.
             integer, intent(in) :: letter
@@ -170,9 +180,10 @@ contains
                              j=1, size(nodes))])
         end function is_alone
 
-        subroutine try_letter(letter, name)
+        subroutine try_letter(letter, name, is_there)
             real(dp), intent(in) :: letter(:)
             character(*), intent(in) :: name
+            logical, intent(in) :: is_there  !! the summand has it
             real(dp) :: one(size(letter))
             logical :: is_number
 
@@ -182,11 +193,12 @@ contains
                 remark = text//" lacks the factor "//times(one(1))//name
                 return
             end if
+            if (turn == 1 .and. .not. is_there) return
             one = needed*letter
             if (is_constant(one) .and. is_likely(one(1), is_number)) then
                 remark = text//" has the factor "//name//" too many"
-                if (abs(one(1) - 1.0_dp) > equal) remark = text//" must be divided by "// &
-                                                           times(1.0_dp/one(1))//name
+                if (abs(one(1) - 1.0_dp) > equal .or. .not. is_there) &
+                    remark = text//" must be divided by "//times(1.0_dp/one(1))//name
             end if
         end subroutine try_letter
 
@@ -288,6 +300,7 @@ contains
         character(:), allocatable, intent(out) :: remark  !! "" if it is not that
         character(:), allocatable, intent(out) :: lacks   !! what the left side lacks, if known
         logical, intent(out) :: is_vague                  !! it lacks something with a right term
+        character(:), allocatable :: on_right
         real(dp), allocatable :: results(:, :), term(:, :), needed(:)
         type(letter_t), allocatable :: letters(:)
         type(expression_t) :: product
@@ -305,6 +318,7 @@ contains
             if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
             if (is_constant(needed) .and. is_simple(needed(1))) then
                 lacks = times(needed(1))//formula_text(library(k)%term, samples%symbols)
+                on_right = times(-needed(1))//formula_text(library(k)%term, samples%symbols)
                 exit
             end if
             if (remark == "" .and. .not. is_constant(needed) .and. &
@@ -315,12 +329,13 @@ contains
             end if
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
-            lacks = formula_text(simplified(product*library(k)%term, samples%symbols), &
-                                 samples%symbols)
+            product = simplified(product*library(k)%term, samples%symbols)
+            lacks = formula_text(product, samples%symbols)
+            on_right = formula_text(simplified(-product, samples%symbols), samples%symbols)
             exit
         end do
         is_vague = is_vague .and. .not. allocated(lacks)
-        if (allocated(lacks)) remark = "on the left is missing "//lacks
+        if (allocated(lacks)) remark = missing(expression, lacks, on_right)
     contains
         logical function is_there()
             !! Some summand is this term but for a factor.
@@ -333,6 +348,21 @@ contains
                              i=1, size(nodes))])
         end function is_there
     end subroutine try_missing_terms
+
+    pure function missing(expression, on_left, on_right) result(text)
+        !! What is missing, said of the right side where the left one is a name alone.
+        type(expression_t), intent(in) :: expression        !! left side less right side
+        character(*), intent(in) :: on_left, on_right       !! on either side
+        character(:), allocatable :: text
+        logical :: is_name
+
+        associate (root => expression%nodes(expression%count))
+            is_name = root%kind == kind_difference
+            if (is_name) is_name = expression%nodes(root%left)%kind == kind_symbol
+        end associate
+        text = "on the left is missing "//on_left
+        if (is_name) text = "on the right is missing "//on_right
+    end function missing
 
     subroutine prepare(expression, samples, values, library, results, letters)
         !! The values of all nodes, and the letters of which a factor may consist.
@@ -382,69 +412,4 @@ contains
         if (.not. all_finite(x)) return
         yes = maxval(x) - minval(x) <= equal*max(maxval(abs(x)), 1e-3_dp)
     end function is_constant
-
-    pure function times(factor) result(text)
-        !! `2 `, `- `, or nothing for 1.
-        real(dp), intent(in) :: factor
-        character(:), allocatable :: text
-
-        text = number_text(factor)//" "
-        if (abs(factor - 1.0_dp) < equal) text = ""
-        if (abs(factor + 1.0_dp) < equal) text = "-"
-    end function times
-
-    pure function is_simple(value) result(yes)
-        !! A fraction of small numbers, perhaps with \(\pi\): a number that a student may have
-        !! forgotten. Any other is chance.
-        real(dp), intent(in) :: value
-        logical :: yes
-
-        yes = is_fraction(value) .or. is_fraction(value/pi) .or. is_fraction(value*pi) .or. &
-              is_fraction(value/pi**2)
-    end function is_simple
-
-    pure function is_fraction(value) result(yes)
-        !! Up to 144, with a small denominator; not 0.
-        real(dp), intent(in) :: value
-        logical :: yes
-
-        yes = abs(value) > equal .and. abs(value) <= 144.0_dp .and. denominator_of(value) > 0
-    end function is_fraction
-
-    pure function denominator_of(value) result(denominator)
-        !! The least one up to 12 with which it is a fraction; 0: it is none.
-        real(dp), intent(in) :: value
-        integer :: denominator
-
-        denominator = 0
-        if (abs(value) > largest) return
-        do denominator = 1, 12
-            if (abs(value*denominator - anint(value*denominator)) <= &
-                equal*denominator*min(1.0_dp, abs(value))) return
-        end do
-        denominator = 0
-    end function denominator_of
-
-    pure recursive function number_text(value) result(text)
-        !! A fraction of small numbers, perhaps with \(\pi\), or three decimals or digits.
-        real(dp), intent(in) :: value  !! finite
-        character(:), allocatable :: text
-        integer :: denominator
-
-        denominator = denominator_of(value)
-        if (denominator > 0) then
-            text = to_text(nint(value*denominator, int64))
-            if (denominator > 1) text = text//"/"//to_text(denominator)
-        else if (is_fraction(value/pi)) then
-            text = number_text(value/pi)//" pi"
-        else if (is_fraction(value*pi)) then
-            text = number_text(value*pi)//"/pi"
-        else if (is_fraction(value/pi**2)) then
-            text = number_text(value/pi**2)//" pi^2"
-        else
-            text = to_text(anint(1000.0_dp*value)/1000.0_dp)
-            if (abs(value) < 0.1_dp) text = rounded(value, 3)
-        end if
-        if (index(text, "1 pi") == 1) text = text(3:)
-    end function number_text
 end module lagrangia_term_search

@@ -101,7 +101,7 @@ contains
         end if
     end subroutine check
 
-    pure subroutine solve_linear(matrix, rhs, x, error)
+    pure subroutine solve_linear(matrix, rhs, x, error, log_determinant)
         !! Solve \(A x = b\) for a small dense \(A\).
         !!
         !! LAPACK's expert driver: unlike `dgesv` it balances rows and columns first, so masses of
@@ -113,14 +113,17 @@ contains
         real(dp), intent(in) :: rhs(:)                    !! \(b\), (n)
         real(dp), intent(out) :: x(:)                     !! (n); zero after an error
         type(error_t), allocatable, intent(out) :: error  !! shapes, NaN, singular, overflow
+        real(dp), intent(out), optional :: log_determinant
+        !! \(\ln|\det A|\); 0 after an error
         real(dp), dimension(size(rhs), size(rhs)) :: a, factors
         real(dp), dimension(size(rhs), 1) :: b, solution
         real(dp), dimension(size(rhs)) :: row_scale, column_scale
         real(dp) :: forward(1), backward(1), rcond, work(4*size(rhs))
-        integer :: n, info, pivots(size(rhs)), iwork(size(rhs))
+        integer :: i, n, info, pivots(size(rhs)), iwork(size(rhs))
         character :: equed
 
         x = 0.0_dp
+        if (present(log_determinant)) log_determinant = 0.0_dp
         n = size(rhs)
         call check("linear system", "coefficient", size(x) == n .and. all(shape(matrix) == n), &
                    all_finite(matrix) .and. all_finite(rhs), error)
@@ -137,6 +140,10 @@ contains
             call fail(error, "linear system: the solution overflows", status_library)
         else
             x = solution(:, 1)
+            if (.not. present(log_determinant)) return
+            log_determinant = sum([(log(abs(factors(i, i))), i=1, n)])
+            if (scan(equed, "rRbB") > 0) log_determinant = log_determinant - sum(log(row_scale))
+            if (scan(equed, "cCbB") > 0) log_determinant = log_determinant - sum(log(column_scale))
         end if
     end subroutine solve_linear
 

@@ -30,6 +30,7 @@ module lagrangia_pfaffian
         procedure :: integrable
         procedure :: motion
         procedure :: moves
+        procedure :: turns
         procedure :: growth
     end type pfaffian_t
 
@@ -120,20 +121,31 @@ contains
     end function integrable
 
     pure function moves(self, x) result(yes)
-        !! Do the constraints contain the time: a \(b\), or directions that they allow and that
-        !! turn? A factor before a whole constraint is none.
+        !! Do holonomic constraints contain the time: a \(b\), or directions that they allow and
+        !! that turn?
+        class(pfaffian_t), intent(in) :: self
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
+        logical :: yes
+        type(hyperdual_t) :: a(self%rows, self%coordinates + 1)
+
+        call self%forms(hyperdual(x), a)
+        yes = any(is_nonzero(a(:, size(x))%re)) .or. self%turns(x)
+    end function moves
+
+    pure function turns(self, x) result(yes)
+        !! Do the motions that the constraints allow change with the time? A factor before a whole
+        !! constraint is none. Nonholonomic ones may have a \(b\) without it: \(\dot x = y\).
         class(pfaffian_t), intent(in) :: self
         real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
         logical :: yes
         type(hyperdual_t) :: free(self%dimension(), self%dimension() - self%rows)
-        type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
+        type(hyperdual_t) :: xx(self%coordinates + 1)
 
         xx = hyperdual(x)
         xx(size(xx))%d1 = 1.0_dp
-        call self%forms(xx, a)
         call kernel(self, xx, free)
-        yes = any(is_nonzero(a(:, size(xx))%re)) .or. any(abs(free%d1) > noise)
-    end function moves
+        yes = any(abs(free%d1) > noise)
+    end function turns
 
     pure subroutine on_the_free(self, x, da, terms)
         !! \(da(X, Y)\) of each constraint on the directions that all allow, and the sum of the

@@ -2,13 +2,14 @@ module lagrangia_quadratic_eigen
     !! The exponents of small oscillations with damping, \(M\ddot u + D\dot u + Ku = 0\), the
     !! slowest as right as the fastest.
     use lagrangia_eigen, only: eigenpairs
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_gyroscopic, only: fast_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_null_space, only: least_vector
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_regular_pencil, only: equilibrate, leave_zeros_out
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: quadratic_eigenvalues
@@ -73,7 +74,31 @@ contains
             none = is_rounding(lambda(j), abs(fast_ones(1)), shape_of, mass, damping, stiffness)
             if (none) lambda(j) = 0.0_dp
         end do
+        if (size(fast_ones) > 0) call check_product(e, a, lambda(:size(fast_ones)), error)
     end subroutine quadratic_eigenvalues
+
+    pure subroutine check_product(e, a, lambda, error)
+        !! Fails unless \(\prod_k|\lambda_k| = |\det A|/|\det E|\): an eigenvalue so far from both the
+        !! largest and the smallest that rounding drowned it may have become anything. A zero among
+        !! them, which was found to be rounding, is not judged.
+        real(dp), intent(in) :: e(:, :), a(:, :)  !! without the zeros
+        complex(dp), intent(in) :: lambda(:)      !! of \(\lambda Ex = Ax\)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: most = 1e-3_dp
+        real(dp) :: x(size(lambda)), zero(size(lambda)), above, below
+
+        zero = 0.0_dp
+        call solve_linear(a, zero, x, error, above)
+        if (.not. allocated(error)) call solve_linear(e, zero, x, error, below)
+        if (allocated(error)) then
+            deallocate (error)  ! a singular matrix has another product, with which nothing is said
+        else if (any(abs(lambda) <= 0.0_dp)) then
+            return
+        else if (.not. abs(sum(log(abs(lambda))) - above + below) <= size(lambda)*most) then
+            call fail(error, "with damping the rates, the fastest "//to_text(abs(lambda(1)))// &
+                      " 1/s, are more digits apart than doubles can tell", status_library)
+        end if
+    end subroutine check_product
 
     pure subroutine eigenvalues(e, a, values, error)
         !! The \(\mu\) of \(\mu Ex = Ax\), with magnitudes that fall.

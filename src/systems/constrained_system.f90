@@ -179,22 +179,23 @@ contains
     pure subroutine classify(self)
         !! Whether the constraints are holonomic, that is, whether there are \(f(t, q) = c\) that
         !! say the same, is a matter of \(A\,dq + b\,dt\) (Frobenius), not of how they are written;
-        !! rheonomic are those that contain the time: at states of `trial_state`, and where one of
-        !! their functions acts that is constant elsewhere. Where no state tells, it is as they are
-        !! written.
+        !! rheonomic are those whose f, or that themselves where there is no f, contain the time:
+        !! at states of `trial_state`, and where one of their functions acts that is constant
+        !! elsewhere. Where no state tells, it is as they are written.
         class(constrained_system_t), intent(inout) :: self
         type(links_t) :: links
         real(dp) :: t, q(self%ndof), v(self%ndof)
         type(hyperdual_t) :: a(self%constraints, 1 + self%ndof)
         real(dp), allocatable :: local(:, :)
         integer :: k, used
-        logical :: integrable, moves
+        logical :: integrable, moves, turns
 
         links%coordinates = self%ndof
         links%rows = self%constraints
         allocate (links%of, source=self)
         integrable = .true.
         moves = .false.
+        turns = .false.
         used = 0
         call trial_state(1, t, q, v)
         call find_local_states(self%expressions%constraints, [t, q, v, self%p], 1 + self%ndof, &
@@ -213,11 +214,14 @@ contains
             used = used + 1
             integrable = integrable .and. links%integrable([q, t])
             moves = moves .or. links%moves([q, t])
+            turns = turns .or. links%turns([q, t])
         end do
         if (used == 0) then
             integrable = all(self%holonomic)
             moves = any([(self%expressions%constraints(k)%depends_on(1), k=1, self%constraints)])
+            turns = moves
         end if
+        if (.not. integrable) moves = turns
         self%constraint_class = trim(merge("holonomic   ", "nonholonomic", integrable))// &
                                 merge(", rheonomic  ", ", scleronomic", moves)
     end subroutine classify

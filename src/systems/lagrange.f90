@@ -21,7 +21,7 @@ module lagrangia_lagrange
     implicit none (type, external)
     private
     public :: euler_lagrange_t, expand_lagrangian, accelerations_from_lagrangian
-    public :: equations_of_motion, energy_from_lagrangian, energy_rate
+    public :: equations_of_motion, energy_from_lagrangian, energy_rate, energy_slopes
 
     type :: euler_lagrange_t
         !! The Lagrangian's derivatives at one state, and the generalised forces.
@@ -169,6 +169,31 @@ contains
         energy = -terms%l
         if (size(v) == system%ndof) energy = dot_product(v, terms%dl_dv) - terms%l
     end function energy_from_lagrangian
+
+    pure subroutine energy_slopes(system, t, q, v, by_q, by_v)
+        !! \(\partial E/\partial q\) and \(\partial E/\partial\dot q\) of
+        !! \(E = \dot q\,\partial L/\partial\dot q - L\).
+        class(system_t), intent(in) :: system  !! gives L
+        real(dp), intent(in) :: t              !! s
+        real(dp), intent(in) :: q(:), v(:)     !! coordinates, velocities, (n)
+        real(dp), intent(out) :: by_q(:), by_v(:)  !! (n)
+        type(hyperdual_t) :: qq(size(q)), vv(size(q)), l
+        integer :: j
+
+        qq%re = q
+        vv%re = v
+        vv%d2 = v
+        do j = 1, size(q)
+            vv(j)%d1 = 1.0_dp
+            l = system%lagrangian(hyperdual_t(t), qq, vv)
+            vv(j)%d1 = 0.0_dp
+            by_v(j) = l%d12
+            qq(j)%d1 = 1.0_dp
+            l = system%lagrangian(hyperdual_t(t), qq, vv)
+            qq(j)%d1 = 0.0_dp
+            by_q(j) = l%d12 - l%d1
+        end do
+    end subroutine energy_slopes
 
     pure function energy_rate(system, t, q, v) result(rate)
         !! \(\dot E = \sum_j Q_j\dot q_j - \partial L/\partial t - \sum_k\lambda_k b_k\) of the
