@@ -28,6 +28,8 @@ contains
         call suite%addTest(TestMethod("growth_that_is_turned", growth_that_is_turned))
         call suite%addTest(TestMethod("zeros_are_zeros", zeros_are_zeros))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
+        call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
+                                      three_masses_on_stiff_dashpots))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
 
@@ -265,6 +267,44 @@ contains
         call is_there(lambda, root - half, "it grows")
         call is_there(lambda, -root - half, "it falls")
     end subroutine growth_that_is_turned
+
+    subroutine three_masses_on_stiff_dashpots()
+        !! They move as one, \(\omega^2 = (1 + 1/2 + 1/3)/3\), and hardly decay, with \(1/(12b)\);
+        !! what rounding leaves of that is told. Where nothing is left, none is stated: a
+        !! growth of 800/s was.
+        real(dp), parameter :: k(3, 3) = reshape([2.0_dp, -1.0_dp, 0.0_dp, -1.0_dp, 1.5_dp, &
+                                                  0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/3], [3, 3])
+        real(dp), parameter :: d(3, 3) = reshape([1.0_dp, -1.0_dp, 0.0_dp, -1.0_dp, 1.5_dp, &
+                                                  -0.5_dp, 0.0_dp, -0.5_dp, 0.5_dp], [3, 3])
+        real(dp), parameter :: m(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, &
+                                                  0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: rounding(:)
+        real(dp) :: b, omega
+        integer :: j, power
+
+        omega = sqrt(11.0_dp/18)
+        do power = 4, 30
+            b = 10.0_dp**power
+            call quadratic_eigenvalues(m, b*d, k, lambda, error, rounding)
+            if (power > 13) call assertTrue(allocated(error), message="refused")
+            if (allocated(error)) then
+                call assertEqual("more digits apart than doubles can tell", &
+                                 error%message(index(error%message, "more"):), message="why")
+                cycle
+            end if
+            j = maxloc(aimag(lambda), 1)
+            call assertTrue(abs(-real(lambda(j)) - 1/(12*b)) <= rounding(j) + 1e-8_dp/b, &
+                            message="its decay rate")
+            call assertTrue(abs(aimag(lambda(j)) - omega) <= rounding(j)**2/omega + 0.1_dp/b**2 + &
+                            1e-14_dp, message="its frequency")
+            call assertTrue(rounding(j) > 1e-16_dp*b .and. rounding(j) < 1e-14_dp*b, &
+                            message="what rounding does")
+            call assertTrue(any(abs(real(lambda) + 0.477767032132906485_dp/b) <= 1e-8_dp/b), &
+                            message="a slow one")
+        end do
+    end subroutine three_masses_on_stiff_dashpots
 
     subroutine no_inertia()
         !! A singular M is an error of LAPACK's, with nothing solved.

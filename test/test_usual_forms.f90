@@ -243,7 +243,8 @@ contains
                   "on the right is missing m g cos(theta)")
         call says("cart_pendulum", "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) = 0", is_wrong, &
                   "on the left is missing -m2 l theta_dot^2 sin(theta)")
-        call says("pendulum", "small: theta_ddot = -g/l", is_wrong, "'g/l' lacks the factor 'theta'")
+        call says("pendulum", "small: theta_ddot = -g/l", is_wrong, &
+                  "'g/l' lacks the factor 'theta'")
         call says("pendulum", "omega = 0", is_wrong, "no single change of a sign, letter, dot, "// &
                   "factor, function, exponent or term makes it right")
     end subroutine what_a_side_lacks

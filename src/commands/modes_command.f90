@@ -236,26 +236,44 @@ contains
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         complex(dp), allocatable :: lambda(:)
+        real(dp), allocatable :: rounding(:)
         type(error_t), allocatable :: error
         integer :: j
 
         call put_line("these modes are without the generalised forces beside L; with them, as "// &
                       "exp(lambda t):")
-        call damped_rates(system, modes, lambda, error)
+        call damped_rates(system, modes, lambda, error, rounding)
         if (allocated(error)) then
             call put_line("  "//error%message)
             return
         end if
         do j = 1, size(lambda)
-            if (aimag(lambda(j)) > 0.0_dp) then
-                call put_line("  decay rate "//trim(number(-real(lambda(j))))// &
-                              " 1/s, omega "//trim(number(aimag(lambda(j))))//" rad/s")
-            else
-                call put_line("  decay rate "//trim(number(-real(lambda(j))))// &
-                              " 1/s, no oscillation")
-            end if
+            associate (gamma => -real(lambda(j)), omega => aimag(lambda(j)), delta => rounding(j))
+                if (omega > 0.0_dp) then
+                    call put_line("  decay rate "//certain(gamma, delta, omega)//" 1/s, omega "// &
+                                  certain(omega, delta**2/omega, omega)//" rad/s")
+                else
+                    call put_line("  decay rate "//trim(number(gamma))//" 1/s, no oscillation")
+                end if
+            end associate
         end do
     end subroutine put_damped
+
+    pure function certain(value, delta, omega) result(text)
+        !! As many of its digits as there are; a 0 that rounding may have made is none where
+        !! \(\delta > 10^{-10}\omega\).
+        real(dp), intent(in) :: value, delta  !! of a mode, and how far it may be off
+        real(dp), intent(in) :: omega         !! its frequency
+        character(:), allocatable :: text
+
+        if (delta <= 5e-12_dp*abs(value) .or. (is_zero(value) .and. delta <= 1e-10_dp*omega)) then
+            text = trim(number(value))
+        else if (delta < 0.5_dp*abs(value)) then
+            text = scientific(value, max(1, floor(log10(abs(value)/delta))))
+        else
+            text = "below "//scientific(delta, 1)
+        end if
+    end function certain
 
     subroutine put_shapes(modes)
         !! One a line; of a mode that turns, what goes as \(\sin\omega t\) on a second line.

@@ -16,7 +16,7 @@ module lagrangia_quadratic_eigen
 
 contains
 
-    pure subroutine quadratic_eigenvalues(mass, damping, stiffness, lambda, error)
+    pure subroutine quadratic_eigenvalues(mass, damping, stiffness, lambda, error, rounding)
         !! The \(\lambda\) of \((\lambda^2M + \lambda D + K)u = 0\), all 2n, with magnitudes that
         !! fall.
         !!
@@ -36,16 +36,20 @@ contains
         real(dp), intent(in) :: stiffness(:, :)             !! \(K\), (n, n)
         complex(dp), allocatable, intent(out) :: lambda(:)  !! (2n), 1/s
         type(error_t), allocatable, intent(out) :: error    !! status 4: LAPACK, a singular M
+        real(dp), allocatable, intent(out), optional :: rounding(:)
+        !! (2n), how far the rounding of the elements may have moved \(\mathrm{Re}\,\lambda\), 1/s;
+        !! the imaginary part of an oscillation by the square of that over \(|\lambda|\)
         real(dp), allocatable :: e(:, :), a(:, :)
         complex(dp), allocatable :: fast_ones(:), slow_ones(:)
         complex(dp) :: shape_of(size(mass, 1))
         type(error_t), allocatable :: singular
-        real(dp) :: noise
+        real(dp) :: moved(2*size(mass, 1)), noise
         integer :: fast, i, j, n
         logical :: none
 
         n = size(mass, 1)
         allocate (lambda(2*n), source=(0.0_dp, 0.0_dp))
+        moved = 0.0_dp
         allocate (e(2*n, 2*n), a(2*n, 2*n), source=0.0_dp)
         do i = 1, n
             e(i, i) = 1.0_dp
@@ -70,17 +74,19 @@ contains
             noise = 1e-6_dp*abs(fast_ones(j))
             if (j <= fast) noise = noise + 16*size(lambda)*epsilon(noise)*abs(fast_ones(1))
             call improve(fast_ones(j), shape_of, noise, mass, damping, stiffness)
-            lambda(j) = refined(fast_ones(j), noise, shape_of, mass, damping, stiffness)
+            call refine(fast_ones(j), noise, shape_of, mass, damping, stiffness, lambda(j), &
+                        moved(j))
             none = is_rounding(lambda(j), abs(fast_ones(1)), shape_of, mass, damping, stiffness)
             if (none) lambda(j) = 0.0_dp
         end do
+        if (present(rounding)) allocate (rounding, source=moved)
         if (size(fast_ones) > 0) call check_product(e, a, lambda(:size(fast_ones)), error)
     end subroutine quadratic_eigenvalues
 
     pure subroutine check_product(e, a, lambda, error)
-        !! Fails unless \(\prod_k|\lambda_k| = |\det A|/|\det E|\): an eigenvalue so far from both the
-        !! largest and the smallest that rounding drowned it may have become anything. A zero among
-        !! them, which was found to be rounding, is not judged.
+        !! Fails unless \(\prod_k|\lambda_k| = |\det A|/|\det E|\): an eigenvalue so far from both
+        !! the largest and the smallest that rounding drowned it may have become anything, 0 too.
+        !! Singular matrices have another product, of which nothing is said.
         real(dp), intent(in) :: e(:, :), a(:, :)  !! without the zeros
         complex(dp), intent(in) :: lambda(:)      !! of \(\lambda Ex = Ax\)
         type(error_t), allocatable, intent(out) :: error
@@ -91,10 +97,9 @@ contains
         call solve_linear(a, zero, x, error, above)
         if (.not. allocated(error)) call solve_linear(e, zero, x, error, below)
         if (allocated(error)) then
-            deallocate (error)  ! a singular matrix has another product, with which nothing is said
-        else if (any(abs(lambda) <= 0.0_dp)) then
-            return
-        else if (.not. abs(sum(log(abs(lambda))) - above + below) <= size(lambda)*most) then
+            deallocate (error)
+        else if (.not. abs(sum(log(max(abs(lambda), tiny(most)))) - above + below) <= &
+                 size(lambda)*most) then
             call fail(error, "with damping the rates, the fastest "//to_text(abs(lambda(1)))// &
                       " 1/s, are more digits apart than doubles can tell", status_library)
         end if
@@ -212,7 +217,7 @@ contains
               rounding*dot_product(abs(w), matmul(abs(stiffness), abs(u)))
     end function is_rounding
 
-    pure function refined(lambda, noise, u, mass, damping, stiffness) result(better)
+    pure subroutine refine(lambda, noise, u, mass, damping, stiffness, better, moved)
         !! The root near `lambda` of the quadratic that its vector makes. A sum that is no more than
         !! its rounding is 0. Where \(2m\omega + g\) is the smaller part of the derivative
         !! \(2m\lambda + c + ig\), as it is 0 of what a turning force makes of a growth,
@@ -220,19 +225,27 @@ contains
         complex(dp), intent(in) :: lambda, u(:)
         real(dp), intent(in) :: noise  !! how far `lambda` may be off
         real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
-        complex(dp) :: better
-        real(dp) :: c, g, m, k, k_i, omega, roots(2)
+        complex(dp), intent(out) :: better
+        real(dp), intent(out) :: moved  !! how far rounding may have moved its real part
+        real(dp) :: c, g, m, k, k_i, omega, roots(2), of_c(2), of_k(2), of_m(2)
+        complex(dp) :: root
 
         omega = aimag(lambda)
-        call form_of(mass, u, m, k_i)
-        call form_of(damping, u, c, g)
-        call form_of(stiffness, u, k, k_i)
+        better = lambda
+        moved = 0.0_dp
+        call form_of(mass, u, m, k_i, of_m)
+        call form_of(damping, u, c, g, of_c)
+        call form_of(stiffness, u, k, k_i, of_k)
         if (is_nonzero(omega)) then
-            better = lambda
             if (abs(2.0_dp*m*omega + g) < abs(2.0_dp*m*real(lambda) + c)) return
+            moved = (of_c(1)*abs(omega) + of_k(2))/abs(2.0_dp*m*omega + g)
+            if (moved > 1e-13_dp*abs(omega)) then  ! more than of the vector, which counts squared
+                root = sqrt(cmplx(c, g, dp)**2 - 4.0_dp*m*cmplx(k, k_i, dp))
+                if (aimag(root)*omega < 0.0_dp) root = -root
+                omega = aimag(root - cmplx(c, g, dp))/(2.0_dp*m)
+            end if
             better = cmplx(-(c*omega + k_i)/(2.0_dp*m*omega + g), omega, dp)
         else
-            better = lambda
             roots(1) = c**2 - 4.0_dp*m*k
             if (roots(1) < 0.0_dp) return
             roots = -0.5_dp*(c + sign(sqrt(roots(1)), c))
@@ -241,14 +254,15 @@ contains
             better = roots(minloc(abs(roots - real(lambda)), 1))
         end if
         if (.not. abs(better - lambda) <= noise) better = lambda
-    end function refined
+    end subroutine refine
 
-    pure subroutine form_of(a, u, re, im)
+    pure subroutine form_of(a, u, re, im, rounding)
         !! \(u^\dagger Au\): the real part is the symmetric part's, the imaginary one the rest's.
         real(dp), intent(in) :: a(:, :)
         complex(dp), intent(in) :: u(:)
         real(dp), intent(out) :: re, im
-        real(dp) :: parts(3, size(u), size(u)), size_of(2)
+        real(dp), intent(out) :: rounding(2)  !! of both
+        real(dp) :: parts(3, size(u), size(u))
         integer :: i, j
 
         do j = 1, size(u)
@@ -258,10 +272,10 @@ contains
                 parts(3, i, j) = 0.5_dp*abs(a(i, j) - a(j, i))*abs(u(i))*abs(u(j))
             end do
         end do
-        size_of = 4*size(u)*epsilon(size_of)*[sum(abs(parts(1, :, :))), sum(parts(3, :, :))]
+        rounding = 4*size(u)*epsilon(re)*[sum(abs(parts(1, :, :))), sum(parts(3, :, :))]
         re = sum(parts(1, :, :))
         im = sum(parts(2, :, :))
-        if (abs(re) <= size_of(1)) re = 0.0_dp
-        if (abs(im) <= size_of(2)) im = 0.0_dp
+        if (abs(re) <= rounding(1)) re = 0.0_dp
+        if (abs(im) <= rounding(2)) im = 0.0_dp
     end subroutine form_of
 end module lagrangia_quadratic_eigen

@@ -31,7 +31,7 @@ contains
         end do
     end subroutine damping_matrix
 
-    pure subroutine damped_rates(system, modes, lambda, error)
+    pure subroutine damped_rates(system, modes, lambda, error, rounding)
         !! The exponents of \(e^{\lambda t}\), those with \(\mathrm{Im}\,\lambda\ge0\), the fastest
         !! oscillation last, of two alike but for rounding the one that grows first:
         !! \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\) the frequency.
@@ -42,12 +42,14 @@ contains
         type(modes_t), intent(in) :: modes                    !! without damping, solved
         complex(dp), allocatable, intent(out) :: lambda(:)    !! 1/s
         type(error_t), allocatable, intent(out) :: error      !! status 4: LAPACK
+        real(dp), allocatable, intent(out), optional :: rounding(:)
+        !! how far it may have moved the decay rates, 1/s; a frequency by its square over that
         real(dp), dimension(size(modes%at), size(modes%at)) :: springs
         real(dp), allocatable :: mass(:, :), turning(:, :)  !! within the constraints
         complex(dp), allocatable :: all_lambda(:)
-        real(dp), allocatable :: rank(:)
+        real(dp), allocatable :: all_rounding(:), rank(:)
         logical, allocatable :: left(:)
-        real(dp), parameter :: rounding = 1e-9_dp, split = 8.0_dp*sqrt(epsilon(1.0_dp))
+        real(dp), parameter :: alike = 1e-9_dp, split = 8.0_dp*sqrt(epsilon(1.0_dp))
         integer :: j
 
         allocate (turning(size(modes%at), size(modes%at)))
@@ -56,7 +58,7 @@ contains
         mass = modes%allowed(modes%mass)
         turning = modes%allowed(turning + modes%gyroscopic)
         call quadratic_eigenvalues(mass, turning, modes%allowed(springs + modes%stiffness), &
-                                   all_lambda, error)
+                                   all_lambda, error, all_rounding)
         if (allocated(error)) return
         if (size(all_lambda) == 2) then
             if (abs(all_lambda(2) - all_lambda(1)) <= split*abs(all_lambda(1))) then
@@ -65,12 +67,14 @@ contains
         end if
         allocate (left, source=aimag(all_lambda) >= 0.0_dp)
         allocate (lambda(0))
+        if (present(rounding)) allocate (rounding(0))
         do while (any(left))
             rank = aimag(all_lambda) + 1e-3_dp*abs(real(all_lambda))
             j = maxloc(real(all_lambda), 1, left .and. &
-                       rank <= (1.0_dp + rounding)*minval(rank, left))
+                       rank <= (1.0_dp + alike)*minval(rank, left))
             if (j == 0) exit  ! what is left is no number
             lambda = [lambda, all_lambda(j)]
+            if (present(rounding)) rounding = [rounding, all_rounding(j)]
             left(j) = .false.
         end do
     end subroutine damped_rates
