@@ -9,7 +9,7 @@ module extremes
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
-    use lagrangia_system, only: default_values, system_t
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private

@@ -1,9 +1,8 @@
 module own_systems
     !! Systems as a student brings them: an outline and a Lagrangian, no more.
-    use lagrangia, only: coordinate, cos, description_t, dp, error_t, hyperdual_t, &
-                         lagrangian_system_t, log, mass_point, nonnegative, operator(*), &
-                         operator(**), operator(+), operator(-), operator(/), positive, &
-                         quantity_t, real_number, sin, sqrt, sum
+    use lagrangia, only: coordinate, cos, description_t, dp, hyperdual_t, lagrangian_system_t, &
+                         log, mass_point, nonnegative, operator(*), operator(**), operator(+), &
+                         operator(-), operator(/), positive, quantity_t, real_number, sin, sqrt, sum
     implicit none (type, external)
     private
     public :: own_pendulum_t, own_double_t, own_pivot_t, own_slope_t, own_skin_t, own_named_t

@@ -1,8 +1,7 @@
 module test_canonical
     !! Momenta, velocities and forces of every system; implicit methods that find no solution.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
-                     assertTrue
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
     use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, status_numbers

@@ -40,7 +40,7 @@ contains
                                 "p_theta_dot = -2 m g l sin(theta)", &
                                 "p_theta_dot = -4 m g l sin(theta)"], &
                    [character(90) :: "'2 m l^2 theta_dot' must be counted 1/2 times", &
-                    "'theta_ddot' must be counted 2 times", &
+                    "'2 g/l sin(theta)' must be counted 1/2 times", &
                     "from line 3, which is wrong", &
                     "from lines 2 and 3, which are wrong"])
         call sheet("pendulum", [character(50) :: "omega = 2 sqrt(g/l)", "omega^2 = 4 g/l", &

@@ -1,16 +1,13 @@
 module test_dop853
     !! `dop853` on the pendulum, whose motion is known in closed form.
-    use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, assertLessThan, &
-                     assertLessThanOrEqual, assertTrue, TestMethod, TestSuite
-    use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use funit, only: assertEqual, assertFalse, assertGreaterThan, assertLessThan, TestMethod, &
+                     TestSuite
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_dop853_stages, only: scaled_error, slope, stages
-    use lagrangia_errors, only: error_t, status_numbers
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_rotating_wire, only: rotating_wire_t
     implicit none (type, external)
     private
     public :: dop853_suite

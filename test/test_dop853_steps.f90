@@ -1,6 +1,6 @@
 module test_dop853_steps
     !! How `dop853` chooses its steps, and what it does where none is small enough.
-    use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, assertLessThan, &
+    use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThanOrEqual, assertTrue, TestMethod, TestSuite
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_dop853, only: dop853_t, new_dop853

@@ -1,7 +1,7 @@
 module test_generalised_forces
     !! Forces beside L are in the equations of motion, the energy balance and the structure.
     use dragged_systems, only: dragged_cart_t, slipped_cart_t
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: error_t
     use lagrangia_generalised_forces, only: momentum_rates

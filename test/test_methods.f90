@@ -11,7 +11,6 @@ module test_methods
     use lagrangia_ledger, only: ledger_t
     use lagrangia_method_orders, only: audit_methods, method_run, new_problem, problems, refuses
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
-    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private

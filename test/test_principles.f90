@@ -5,7 +5,6 @@ module test_principles
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
-    use lagrangia_ledger, only: claim_t
     use lagrangia_ledger_text, only: statement_line
     use lagrangia_principles, only: principle_names, principle_report, principles
     use lagrangia_report, only: report_t

@@ -9,7 +9,7 @@ module test_rotating_reference
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_system, only: system_t
-    use random_states, only: draw_parameters, draw_state, restart_random, uniform
+    use random_states, only: draw_parameters, draw_state, restart_random
     use reference_checks, only: check_reference, check_state
     use rk4_checks, only: check_against_rk4
     implicit none (type, external)

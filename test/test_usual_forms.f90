@@ -1,7 +1,7 @@
 module test_usual_forms
     !! What students and answer keys write beside equations of motion: H and Hamilton's equations,
     !! U, p, v, T for a tension, rounded numbers, `~`, constants of the motion.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual
     use lagrangia_judgement, only: is_definition, is_right, is_wrong
     use tried_responses, only: graded
     implicit none (type, external)
@@ -245,6 +245,12 @@ contains
                   "on the left is missing -m2 l theta_dot^2 sin(theta)")
         call says("pendulum", "small: theta_ddot = -g/l", is_wrong, &
                   "'g/l' lacks the factor 'theta'")
+        call says("pendulum", "g = 4 pi^2 l*T^2", is_wrong, "'4 pi^2/omega^2' must be "// &
+                  "'omega^2/(4 pi^2)' in '4 pi^2 l (4 pi^2/omega^2)'")
+        call says("pendulum", "g = 4 pi l/T^2", is_wrong, &
+                  "'4 pi l/(4 pi^2/omega^2)' must be counted pi times")
+        call says("pendulum", "omega = 2 pi T", is_wrong, &
+                  "'2 pi/omega' must be 'omega/(2 pi)' in '2 pi (2 pi/omega)'")
         call says("pendulum", "omega = 0", is_wrong, "no single change of a sign, letter, dot, "// &
                   "factor, function, exponent or term makes it right")
     end subroutine what_a_side_lacks

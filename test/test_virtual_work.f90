@@ -1,7 +1,7 @@
 module test_virtual_work
     !! D'Alembert's principle and generalized forces, for every system at random parameters.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
-                     assertGreaterThan, assertLessThanOrEqual, assertTrue
+                     assertGreaterThan, assertLessThanOrEqual
     use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t

@@ -1,7 +1,7 @@
 module tried_responses
     !! Statements that are graded, of which we know what is to come out: written by hand, the slips
     !! of the notes, and drawn from what the systems print, in other words or with slips.
-    use funit, only: assertEqual, assertTrue
+    use funit, only: assertEqual
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_description, only: description_t
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes

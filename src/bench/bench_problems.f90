@@ -2,7 +2,7 @@ module lagrangia_bench_problems
     !! The problems that every method is given, with their solutions: `data/reference/bench.nml`.
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, get_string, namelist_t, parse_namelist, &
                                   refuse_unknown_keys

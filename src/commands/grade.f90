@@ -7,8 +7,7 @@ module lagrangia_grade
     use lagrangia_errors, only: error_t, fail, status_not_held, status_usage
     use lagrangia_grading, only: grade_t
     use lagrangia_homework, only: homework_t, read_homework
-    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair, &
-                              json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
                                    is_wrong
     use lagrangia_printed_table, only: left

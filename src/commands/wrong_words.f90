@@ -10,7 +10,7 @@ module lagrangia_wrong_words
     use lagrangia_registry, only: accepts, command_t, commands
     use lagrangia_scene_keys, only: keys
     use lagrangia_shipped, only: named_scenes, named_sweeps, scene_name
-    use lagrangia_text, only: join, lower, quoted
+    use lagrangia_text, only: lower, quoted
     use lagrangia_vocabulary, only: words_of
     implicit none (type, external)
     private

@@ -5,8 +5,8 @@ module lagrangia_algebra
                                       ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
                                     f_sgn, f_sin, f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, &
-                                    kind_function, kind_negation, kind_number, kind_power, &
-                                    kind_product, kind_quotient, kind_sum, kind_symbol
+                                    kind_negation, kind_number, kind_power, kind_product, &
+                                    kind_quotient, kind_sum, kind_symbol
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: is_zero
     use lagrangia_polynomial, only: atom_power, most_atoms, number_polynomial, operator(+), &

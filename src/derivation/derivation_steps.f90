@@ -20,7 +20,6 @@ module lagrangia_derivation_steps
     use lagrangia_polynomial, only: atom_power, number_polynomial, operator(+), &
                                     operator(-), operator(*), polynomial_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
     use lagrangia_trigonometry, only: shorten, tidy
     implicit none (type, external)
     private

@@ -2,7 +2,7 @@ module lagrangia_polynomial
     !! Sums of products: exact coefficients times whole powers of numbered atoms, `m2 l sin(theta)`.
     use lagrangia_exact_number, only: common_measure, number_t, operator(+), operator(-), &
                                       operator(*), operator(==), ratio
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: i8
     implicit none (type, external)
     private
     public :: polynomial_t

@@ -10,7 +10,7 @@ module lagrangia_strobe
     use lagrangia_kinds, only: dp
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: strobe_t, new_strobe

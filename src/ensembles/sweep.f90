@@ -9,8 +9,8 @@ module lagrangia_sweep
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: column_event_t, new_column_event
     use lagrangia_kept, only: is_exact_extreme, is_lyapunov, keeps_attractor, keeps_end, &
-                              keeps_event, keeps_flip, keeps_largest, keeps_smallest, &
-                              keeps_wrapped, kept_t, read_kept
+                              keeps_flip, keeps_largest, keeps_smallest, keeps_wrapped, kept_t, &
+                              read_kept
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_names, only: advice

@@ -7,7 +7,7 @@ module lagrangia_atoms
     use lagrangia_monomials, only: atom_function, atom_number_pi, atom_power, atom_sum, &
                                    atom_symbol, atom_t, class_acceleration, class_coordinate, &
                                    class_function, class_parameter, class_time, class_velocity, &
-                                   compare, is_coefficient, order_t, sum_t, term_t
+                                   compare, is_coefficient, order_t, sum_t
     use lagrangia_number_class, only: is_nonzero
     use lagrangia_sums, only: equal_sums
     use lagrangia_symbols, only: symbols_t

@@ -1,9 +1,8 @@
 module lagrangia_formula_compiler
     !! From formulas to instructions: what occurs twice is computed once, numbers beforehand; sums
     !! of products and the sine and cosine of one angle are one instruction each.
-    use lagrangia_expression, only: expression_t, f_cos, f_sin, kind_difference, kind_function, &
-                                    kind_negation, kind_number, kind_power, kind_product, &
-                                    kind_quotient, kind_sum, kind_symbol
+    use lagrangia_expression, only: expression_t, f_cos, f_sin, kind_function, kind_number, &
+                                    kind_symbol
     use lagrangia_formula_code, only: code_t, instruction_t, op_add, op_divide, op_function, &
                                       op_input, op_multiply, op_multiply_add, &
                                       op_multiply_subtract, op_negate, op_number, op_power, &

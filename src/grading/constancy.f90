@@ -7,7 +7,6 @@ module lagrangia_constancy
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
-    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: explain_change, read_constancy

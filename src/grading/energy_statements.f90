@@ -4,7 +4,6 @@ module lagrangia_energy_statements
     use lagrangia_constant_values, only: draw_constants
     use lagrangia_derivative, only: derivative
     use lagrangia_expression, only: expression_t, operator(-), operator(/), symbol
-    use lagrangia_names, only: name_length
     use lagrangia_sample_names, only: energy_statement_t, samples_t
     use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_substitution, only: substituted

@@ -8,7 +8,7 @@ module lagrangia_frequency_squares
     use lagrangia_number_class, only: is_nonzero
     implicit none (type, external)
     private
-    public :: square, with_squares
+    public :: is_of_period, square, with_squares
 
 contains
 
@@ -25,7 +25,9 @@ contains
             associate (node => formula%nodes(i))
                 select case (node%kind)
                 case (kind_number)
-                    if (node%number%value > 0.0_dp) squares(i) = constant(node%number%value**2)
+                    if (.not. node%number%value > 0.0_dp) cycle
+                    squares(i) = constant(node%number%value)**2  ! pi^2
+                    if (node%number%is_exact()) squares(i) = constant(node%number%value**2)
                 case (kind_symbol)
                     squares(i) = symbol(node%which)**2
                     if (node%which == frequency) squares(i) = symbol(frequency + 1)
@@ -105,4 +107,35 @@ contains
             if (is_nonzero(number - 2*half)) half = 0
         end associate
     end function half_exponent
+
+    pure function is_of_period(formula, frequency) result(inside)
+        !! Which nodes are a part of \(2\pi/\omega\) or its square, which T was read as: the
+        !! quotient as a whole is none.
+        type(expression_t), intent(in) :: formula  !! not empty
+        integer, intent(in) :: frequency           !! the symbol omega; behind it that of its square
+        logical :: inside(formula%count)           !! of each
+        logical :: numbers(0:formula%count)
+        integer :: i
+
+        numbers = .true.
+        inside = .false.
+        do i = 1, formula%count
+            associate (node => formula%nodes(i))
+                numbers(i) = node%kind /= kind_symbol .and. numbers(node%left) .and. &
+                             numbers(node%right)
+                if (node%kind /= kind_quotient .or. .not. numbers(node%left)) cycle
+                if (formula%nodes(node%right)%kind /= kind_symbol) cycle
+                if (all(formula%nodes(node%right)%which /= frequency + [0, 1])) cycle
+                inside(node%left) = .true.
+                inside(node%right) = .true.
+            end associate
+        end do
+        do i = formula%count, 1, -1
+            if (.not. inside(i)) cycle
+            associate (node => formula%nodes(i))
+                if (node%left > 0) inside(node%left) = .true.
+                if (node%right > 0) inside(node%right) = .true.
+            end associate
+        end do
+    end function is_of_period
 end module lagrangia_frequency_squares

@@ -1,7 +1,6 @@
 module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
     use lagrangia_canonical_form, only: simplified
-    use lagrangia_consequences, only: consequences_t
     use lagrangia_declared_constants, only: add_constant, declare_speed, has_place
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t

@@ -3,14 +3,15 @@ module lagrangia_slip_search
     !! function, an exponent, a term too many or one that is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_explanation, only: explanation_t
-    use lagrangia_expression, only: apply, expression_t, f_abs, f_cos, f_cosh, f_sin, f_sinh, &
-                                    f_sqrt, function_names, kind_function, kind_number, &
-                                    kind_power, kind_quotient, kind_symbol, operator(/)
+    use lagrangia_expression, only: apply, expression_t, f_cos, f_cosh, f_sin, f_sinh, &
+                                    kind_function, kind_number, kind_power, kind_quotient, &
+                                    kind_symbol, operator(/)
     use lagrangia_formula_text, only: formula_text
+    use lagrangia_frequency_squares, only: is_of_period
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero, is_zero
-    use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
-                                      role_parameter, role_time, role_velocity, samples_t
+    use lagrangia_sample_names, only: role_acceleration, role_frequency, role_known, &
+                                      role_parameter, role_velocity, samples_t
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
                                          change_exponent, change_factor, change_function, &
                                          change_multiplied, change_number, change_sign, &
@@ -18,7 +19,8 @@ module lagrangia_slip_search
     use lagrangia_simple_numbers, only: number_text
     use lagrangia_term_search, only: context, library_t, part_text, try_factors, &
                                      try_missing_terms, try_products
-    use lagrangia_wide_changes, only: place_from, throughout, two_factors
+    use lagrangia_wide_changes, only: exchangeable, is_of_mass, place_from, throughout, &
+                                      two_factors
     implicit none (type, external)
     private
     public :: explain_slip
@@ -80,13 +82,15 @@ contains
         type(library_t), intent(in) :: library(:)           !! right terms
         type(explanation_t), intent(out) :: explanation     !! empty if there is none
         character(:), allocatable :: remark
-        logical :: could_be_trivial
+        logical :: could_be_trivial, of_period(expression%count)
         integer :: i
 
-        could_be_trivial = .true.  ! sides that need no motion to be compared
+        of_period = is_of_period(expression, samples%frequency)
+        could_be_trivial = .true.  ! sides that need no motion to be compared, or omega = 2 pi/T
         do i = 1, size(samples%role)
             if (samples%role(i) /= role_acceleration .and. samples%role(i) < role_known) cycle
-            if (expression%depends_on(i)) could_be_trivial = .false.
+            if (expression%depends_on(i)) could_be_trivial = samples%role(i) == role_frequency &
+                                                             .and. could_be_trivial
         end do
         do i = 1, widest
             explanation%width = i
@@ -117,7 +121,7 @@ contains
             logical :: judged
 
             mends = .false.
-            if (change%node < first) return
+            if (change%node < first .or. of_period(change%node)) return
             call holds(expression, values(:1, :), mends, judged, change)
             if (.not. mends .and. judged) return
             call holds(expression, values, mends, judged, change)
@@ -418,31 +422,4 @@ contains
             text = part_text(expression, i, samples)
         end function node_text
     end subroutine explain_slip
-
-    pure function exchangeable(a, b, samples) result(yes)
-        !! May a student have written the one for the other? Letters for letters or for the place
-        !! of an equilibrium, a coordinate for another, a place of a mass for another, or with a
-        !! dot too many or too few.
-        integer, intent(in) :: a, b             !! symbols
-        type(samples_t), intent(in) :: samples  !! know their roles
-        logical :: yes
-        integer, parameter :: moving(*) = [role_time, role_coordinate, role_velocity, &
-                                           role_acceleration]
-
-        associate (one => samples%role(a), other => samples%role(b))
-            yes = (one == role_parameter .and. (other == role_parameter .or. &
-                                                any(samples%place == b))) .or. &
-                  (any(moving == one) .and. any(moving == other)) .or. &
-                  (is_of_mass(a, samples) .and. is_of_mass(b, samples))
-        end associate
-    end function exchangeable
-
-    pure function is_of_mass(k, samples) result(yes)
-        !! Is it the place of a mass, or a rate of one?
-        integer, intent(in) :: k                !! a symbol
-        type(samples_t), intent(in) :: samples  !! know which these are
-        logical :: yes
-
-        yes = k >= samples%first_point .and. k <= samples%last_point
-    end function is_of_mass
 end module lagrangia_slip_search

@@ -5,7 +5,7 @@ module lagrangia_statement_forms
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: constant, expression_t, f_sqrt, kind_function, &
                                     kind_number, kind_quotient, kind_symbol, operator(**), &
-                                    operator(-), operator(/), symbol, whole
+                                    operator(*), operator(-), operator(/), symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
@@ -237,7 +237,7 @@ contains
         type(samples_t), intent(in) :: samples  !! know where omega stands
         type(expression_t) :: formula
 
-        formula = constant(2.0_dp*acos(-1.0_dp))/symbol(samples%frequency)
+        formula = whole(2)*constant(acos(-1.0_dp))/symbol(samples%frequency)
     end function period
 
     pure function tensions(samples) result(number)

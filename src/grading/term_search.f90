@@ -110,9 +110,10 @@ contains
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
         small = is_of_small_motion(samples, values)
-        do turn = 1, 2  ! divided by what it does not have only if nothing else does it
+        do turn = 1, 2  ! a name for the other side, or what a term has not, only if that is all
             do k = 1, size(nodes)
                 if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
+                if (turn == 1 .and. is_name_alone(expression, nodes(k))) cycle
                 call find_needed(results, nodes, signs, k, small, needed, is_surplus)
                 text = part_text(expression, nodes(k), samples)
                 if (count(ieee_is_finite(needed)) < enough) cycle
@@ -354,15 +355,24 @@ contains
         type(expression_t), intent(in) :: expression        !! left side less right side
         character(*), intent(in) :: on_left, on_right       !! on either side
         character(:), allocatable :: text
-        logical :: is_name
+
+        text = "on the left is missing "//on_left
+        associate (root => expression%nodes(expression%count))
+            if (is_name_alone(expression, root%left)) text = "on the right is missing "//on_right
+        end associate
+    end function missing
+
+    pure function is_name_alone(expression, i) result(yes)
+        !! Is node `i` all of the left side, a name?
+        type(expression_t), intent(in) :: expression  !! left side less right side
+        integer, intent(in) :: i                      !! place of the node
+        logical :: yes
 
         associate (root => expression%nodes(expression%count))
-            is_name = root%kind == kind_difference
-            if (is_name) is_name = expression%nodes(root%left)%kind == kind_symbol
+            yes = root%kind == kind_difference .and. i == root%left
+            if (yes) yes = expression%nodes(i)%kind == kind_symbol
         end associate
-        text = "on the left is missing "//on_left
-        if (is_name) text = "on the right is missing "//on_right
-    end function missing
+    end function is_name_alone
 
     subroutine prepare(expression, samples, values, library, results, letters)
         !! The values of all nodes, and the letters of which a factor may consist.

@@ -1,6 +1,6 @@
 module lagrangia_wide_changes
     !! Slips in several places of a statement: two letters exchanged throughout, places that must be
-    !! counted from another mass, two terms with wrong factors.
+    !! counted from another mass, two terms with wrong factors; which names may be taken for which.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
@@ -8,12 +8,13 @@ module lagrangia_wide_changes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_letter_products, only: find_product, letter_t
-    use lagrangia_sample_names, only: draws, samples_t, states
+    use lagrangia_sample_names, only: draws, role_acceleration, role_coordinate, role_parameter, &
+                                      role_time, role_velocity, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_term_search, only: gather_letters, library_t, part_text
     implicit none (type, external)
     private
-    public :: place_from, throughout, two_factors
+    public :: exchangeable, is_of_mass, place_from, throughout, two_factors
 
     integer, parameter :: most_changes = 2   !! of one statement
     real(dp), parameter :: equal = 1e-7_dp   !! relative difference of factors that are one
@@ -171,4 +172,31 @@ contains
             end associate
         end do
     end function vanishes
+
+    pure function exchangeable(a, b, samples) result(yes)
+        !! May a student have written the one for the other? Letters for letters or for the place
+        !! of an equilibrium, a coordinate for another, a place of a mass for another, or with a
+        !! dot too many or too few.
+        integer, intent(in) :: a, b             !! symbols
+        type(samples_t), intent(in) :: samples  !! know their roles
+        logical :: yes
+        integer, parameter :: moving(*) = [role_time, role_coordinate, role_velocity, &
+                                           role_acceleration]
+
+        associate (one => samples%role(a), other => samples%role(b))
+            yes = (one == role_parameter .and. (other == role_parameter .or. &
+                                                any(samples%place == b))) .or. &
+                  (any(moving == one) .and. any(moving == other)) .or. &
+                  (is_of_mass(a, samples) .and. is_of_mass(b, samples))
+        end associate
+    end function exchangeable
+
+    pure function is_of_mass(k, samples) result(yes)
+        !! Is it the place of a mass, or a rate of one?
+        integer, intent(in) :: k                !! a symbol
+        type(samples_t), intent(in) :: samples  !! know which these are
+        logical :: yes
+
+        yes = k >= samples%first_point .and. k <= samples%last_point
+    end function is_of_mass
 end module lagrangia_wide_changes

@@ -1,6 +1,6 @@
 module lagrangia_columns
     !! Named columns: from a name such as `theta_dot` or `energy_drift` to a number a state.
-    use lagrangia_description, only: described_by, description_t, name_length, quantity_t
+    use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8

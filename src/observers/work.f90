@@ -6,7 +6,6 @@ module lagrangia_work
     !! A method with dense output is asked inside its step, at eight Gauss-Legendre nodes of each
     !! part of it. Between two steps of another a coordinate is the quintic that has both ends'
     !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\).
-    use lagrangia_errors, only: error_t
     use lagrangia_gauss_tables, only: nodes, stages, weights
     use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t

@@ -6,7 +6,7 @@ module lagrangia_small_oscillations
     !! \(K = -L_{qq}\): once as derived by hand, once from the exact second derivatives of L.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_counted, only: counted
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t
     use lagrangia_eigen, only: modes_from_factors, out_of_range, residual_ratio
     use lagrangia_equilibrium, only: expand_at_rest, expansion_moves, force_at_rest, settle
     use lagrangia_errors, only: error_t, fail

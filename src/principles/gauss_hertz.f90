@@ -6,8 +6,7 @@ module lagrangia_gauss_hertz
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_computed_path, only: compute_path
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: cos, hyperdual, hyperdual_t, operator(*), operator(**), &
-        operator(+), sin
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), sin
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_other_lagrangians, only: bare_lagrangian_t

@@ -8,8 +8,8 @@ module lagrangia_least_time
     use lagrangia_gsl, only: brent_root
     use lagrangia_kinds, only: dp
     use lagrangia_optical_paths, only: concave_mirror_t, elliptic_mirror_t, flat_mirror_t, &
-                                       graded_medium_t, optical_path_t, quartic_t, &
-                                       second_derivative, stationary_point, surface_t
+                                       graded_medium_t, quartic_t, second_derivative, &
+                                       stationary_point, surface_t
     use lagrangia_report, only: report_t
     implicit none (type, external)
     private

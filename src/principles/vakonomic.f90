@@ -6,7 +6,6 @@ module lagrangia_vakonomic
     use lagrangia_kinds, only: dp
     use lagrangia_report, only: report_t
     use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_system, only: system_t
     use lagrangia_vakonomic_disk, only: new_vakonomic_disk, vakonomic_disk_t
     implicit none (type, external)
     private

@@ -10,7 +10,6 @@ module lagrangia_vakonomic_disk
     !!
     !! Source: V. I. Arnold, V. V. Kozlov, A. I. Neishtadt, *Mathematical Aspects of Classical and
     !! Celestial Mechanics*, 3rd ed. (2006), sec. 1.4 ("vakonomic mechanics").
-    use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+)
     use lagrangia_kinds, only: dp
     use lagrangia_other_lagrangians, only: bare_lagrangian_t

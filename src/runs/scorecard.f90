@@ -3,7 +3,7 @@ module lagrangia_scorecard
     !! that say in words what was measured.
     use lagrangia_characters, only: printable
     use lagrangia_counted, only: counted
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_outcome, only: outcome_t, within

@@ -1,7 +1,7 @@
 module lagrangia_changed_scene
     !! A scene that the command line changes is another one: it has a title and files of its own,
     !! and what the file expects of the unchanged motion does not judge it.
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: i8
     use lagrangia_number_class, only: is_nonzero
     use lagrangia_scene, only: heading, scene_t, sweep_group_t
     use lagrangia_text, only: in_words, join, lower, to_text, word_t

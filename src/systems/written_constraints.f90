@@ -7,7 +7,6 @@ module lagrangia_written_constraints
     use lagrangia_expression, only: expression_t, operator(*), operator(+), &
                                     operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_equation, parse_formula
-    use lagrangia_kinds, only: dp
     use lagrangia_symbols, only: symbols_t
     use lagrangia_written_formulas, only: longest_formula
     use lagrangia_written_motion, only: written_motion_t

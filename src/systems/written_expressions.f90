@@ -8,7 +8,7 @@ module lagrangia_written_expressions
     use lagrangia_expression, only: expression_t, operator(*), operator(**), operator(+), &
                                     operator(-), operator(/), whole
     use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_symbols, only: check_name, symbols_t
+    use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: lower, quoted, to_text
     use lagrangia_written_constraints, only: read_constraints
     use lagrangia_written_equilibrium, only: read_equilibrium

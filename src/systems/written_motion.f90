@@ -6,7 +6,6 @@ module lagrangia_written_motion
     use lagrangia_expression, only: expression_t, kind_difference, kind_product, &
                                     kind_quotient, operator(*), operator(+), operator(-), symbol, &
                                     whole
-    use lagrangia_kinds, only: dp
     use lagrangia_symbols, only: symbols_t
     implicit none (type, external)
     private
