@@ -254,6 +254,7 @@ contains
                 call explain_modes(residual, first, samples, values, library, explanation, mode)
                 if (explanation%is_empty()) call explain_squares(left, right, samples, library, &
                                                                  explanation, mode)
+                if (mode == 0) values = samples%values
                 if (mode > 1) call put_mode(samples, mode, values)
                 call put_example(left, right, samples, values, judgement%example)
                 if (explanation%is_empty() .and. is_energy(left, samples)) then

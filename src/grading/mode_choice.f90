@@ -46,14 +46,15 @@ contains
 
     subroutine explain_modes(expression, first, samples, values, library, explanation, mode)
         !! The narrowest change that makes a statement right, for omega of any mode; of one about
-        !! the other equilibrium where there is none about the first.
+        !! the other equilibrium where there is none about the first, or of a mode that is unstable.
         type(expression_t), intent(in) :: expression         !! left side less right side, wrong
         integer, intent(in) :: first                         !! nodes before it are right
         type(samples_t), intent(in) :: samples               !! know the modes
         real(dp), intent(in) :: values(:, :)                 !! of the symbols, omega of the first
         type(library_t), intent(in) :: library(:)            !! right terms
         type(explanation_t), intent(out) :: explanation      !! empty if there is none
-        integer, intent(out) :: mode                         !! of which it is right then
+        integer, intent(out) :: mode
+        !! of which it is right then, see `put_mode`; 0: at the first equilibrium, without omega
         type(explanation_t) :: other
         real(dp) :: there(size(values, 1), size(values, 2))
         integer :: k
@@ -61,26 +62,50 @@ contains
         mode = 1
         call explain_slip(expression, first, samples, values, library, explanation)
         if (.not. (expression%depends_on(samples%frequency) .or. &
-                   expression%depends_on(samples%frequency + 1))) return
+                   expression%depends_on(samples%frequency + 1))) then
+            if (.not. speaks_of_place(expression, samples)) return
+            call explain_slip(expression, first, samples, samples%values, library, other)
+            if (explanation%is_surplus) explanation%width = huge(mode)  ! rather than `is not 0`
+            if (.not. other%is_surplus) call take_narrower(0)
+            return
+        end if
         there = values
         do k = 2, samples%ndof
             ! behind the modes of a constrained system stand zeros, which are none
             if (samples%system%constraints > 0 .and. all(is_zero(samples%omega2(:, k)))) cycle
             call put_mode(samples, k, there)
             call explain_slip(expression, first, samples, there, library, other)
-            if (other%is_empty() .or. .not. (explanation%is_empty() .or. &
-                                             other%width < explanation%width)) cycle
-            explanation = other
-            mode = k
+            call take_narrower(k)
         end do
+        if (samples%ndof == 2) then  ! which of two is the slower one may depend on the parameters
+            do k = 2*samples%ndof + 1, 2*samples%ndof + samples%ndof**draws - 2
+                call put_mode(samples, k, there)
+                call explain_slip(expression, first, samples, there, library, other)
+                call take_narrower(k)
+            end do
+        end if
+        if (mode > 2*samples%ndof) return
         do k = samples%ndof + 1, size(samples%omega2, 2)
-            if (.not. explanation%is_empty()) return
+            if (.not. (explanation%is_empty() .or. all(samples%omega2(:, mode) <= 0.0_dp))) return
             if (count(is_nonzero(samples%omega2(:, k))) < 2) cycle
             there = values
             call put_mode(samples, k, there)
-            call explain_slip(expression, first, samples, there, library, explanation)
-            if (.not. explanation%is_empty()) mode = k
+            call explain_slip(expression, first, samples, there, library, other)
+            if (other%is_empty()) cycle
+            if (.not. explanation%is_empty() .and. other%width > explanation%width) cycle
+            explanation = other
+            mode = k
         end do
+    contains
+        subroutine take_narrower(of_mode)
+            !! The other explanation, if it is.
+            integer, intent(in) :: of_mode
+
+            if (other%is_empty()) return
+            if (.not. explanation%is_empty() .and. other%width >= explanation%width) return
+            explanation = other
+            mode = of_mode
+        end subroutine take_narrower
     end subroutine explain_modes
 
     pure subroutine put_mode(samples, mode, values)
@@ -88,16 +113,21 @@ contains
         !! number where there is none.
         type(samples_t), intent(in) :: samples     !! know the modes
         integer, intent(in) :: mode
-        !! from 1, the slowest about the first equilibrium; above ndof, about the other one
+        !! from 1, the slowest about the first equilibrium; above ndof, about the other one; above
+        !! 2 ndof, one of the first for each draw, the digits of the rest to the base ndof
         real(dp), intent(inout) :: values(:, :)    !! of the symbols
-        integer :: row
+        integer :: draw, k, n, row
 
-        if (mode > samples%ndof) call put_places(samples, samples%other_equilibrium, values)
+        n = samples%ndof
+        if (mode > n .and. mode <= 2*n) call put_places(samples, samples%other_equilibrium, values)
         do row = 1, size(values, 1)
-            associate (omega2 => samples%omega2(1 + (row - 1)/states, mode))
+            draw = 1 + (row - 1)/states
+            k = mode
+            if (mode > 2*n) k = 1 + modulo((mode - 2*n)/n**(draw - 1), n)
+            associate (omega2 => samples%omega2(draw, k))
                 values(row, samples%frequency) = sqrt(omega2)
                 values(row, samples%frequency + 1) = omega2
-                if (mode > samples%ndof .and. is_zero(omega2)) then
+                if (k > n .and. is_zero(omega2)) then
                     values(row, samples%frequency:samples%frequency + 1) = &
                         ieee_value(omega2, ieee_quiet_nan)
                 end if

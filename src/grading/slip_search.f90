@@ -17,7 +17,7 @@ module lagrangia_slip_search
                                          change_multiplied, change_number, change_sign, &
                                          change_symbol, change_t, evaluate_nodes, summands
     use lagrangia_simple_numbers, only: number_text
-    use lagrangia_term_search, only: context, library_t, part_text, try_factors, &
+    use lagrangia_term_search, only: context, is_name_alone, library_t, part_text, try_factors, &
                                      try_missing_terms, try_products
     use lagrangia_wide_changes, only: exchangeable, is_of_mass, place_from, throughout, &
                                       two_factors
@@ -188,7 +188,7 @@ contains
                             if (k == node%which .or. &
                                 expression%depends_on(k) .neqv. pass == 1) cycle
                             if (.not. exchangeable(node%which, k, samples)) cycle
-                            if (is_always_zero(k)) cycle
+                            if (is_always_zero(k) .or. is_left_side(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
                                    "'"//context(expression, samples, i)
@@ -405,6 +405,16 @@ contains
 
             yes = all(is_zero(samples%values(:, k)))
         end function is_always_zero
+
+        logical function is_left_side(k)
+            !! All of it? On the right it would say that something is itself.
+            integer, intent(in) :: k  !! a symbol
+
+            associate (left => expression%nodes(expression%count)%left)
+                is_left_side = is_name_alone(expression, left)
+                if (is_left_side) is_left_side = expression%nodes(left)%which == k
+            end associate
+        end function is_left_side
 
         function must_be(i, other) result(text)
             integer, intent(in) :: i

@@ -1,6 +1,7 @@
 module lagrangia_small_judgement
     !! Is a statement about small oscillations right? Equations hold to first order, L and the
     !! energies to second.
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
@@ -34,6 +35,7 @@ contains
         logical, intent(in) :: explain                   !! say what is wrong
         type(judgement_t), intent(inout) :: judgement    !! of it
         type(expression_t) :: left, right
+        type(explanation_t) :: of_first
         real(dp), allocatable :: values(:, :), shown(:, :)
         logical :: about_first, about_other, given, judged, only_other, right_one
         integer :: first, k
@@ -88,15 +90,31 @@ contains
         else if (.not. right_one) then
             judgement%verdict = is_wrong
             if (.not. explain) return
-            ! a change that makes it linear is better than one that makes a term negligible
-            if (.not. given) call explain_slip(judgement%residual, first, samples, shown, &
-                                               library, judgement%explanation)
-            if (judgement%explanation%is_empty()) call explain_slip( &
-                judgement%residual, first, samples, values, library, judgement%explanation)
-            call judgement%say_why()
+            call explain_it(judgement%explanation)
             call put_example(left, right, samples, shown, judgement%example)
+            if (about_other .and. .not. only_other) then
+                call compare(.false., .false.)
+                if (judged) call explain_it(of_first)
+                if (judged .and. .not. of_first%is_empty() .and. &
+                    of_first%width < judgement%explanation%width) then
+                    judgement%explanation = of_first
+                    call put_example(left, right, samples, shown, judgement%example)
+                end if
+                judgement%remark = ""
+            end if
+            call judgement%say_why()
         end if
     contains
+        subroutine explain_it(explanation)
+            !! A change that makes it linear is better than one that makes a term negligible.
+            type(explanation_t), intent(out) :: explanation
+
+            if (.not. given) call explain_slip(judgement%residual, first, samples, shown, &
+                                               library, explanation)
+            if (explanation%is_empty()) call explain_slip(judgement%residual, first, samples, &
+                                                          values, library, explanation)
+        end subroutine explain_it
+
         subroutine compare(other, counted_from_it)
             !! With the motion about one equilibrium.
             logical, intent(in) :: other, counted_from_it

@@ -17,7 +17,7 @@ module lagrangia_term_search
     private
     public :: library_t
     public :: gather_letters
-    public :: context, missing, part_text
+    public :: context, is_name_alone, missing, part_text
     public :: try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
@@ -365,7 +365,7 @@ contains
     pure function is_name_alone(expression, i) result(yes)
         !! Is node `i` all of the left side, a name?
         type(expression_t), intent(in) :: expression  !! left side less right side
-        integer, intent(in) :: i                      !! place of the node
+        integer, intent(in) :: i                      !! place of the node, or 0
         logical :: yes
 
         associate (root => expression%nodes(expression%count))
