@@ -138,7 +138,8 @@ contains
         integer, intent(inout) :: at
         real(dp), intent(out) :: value, size_of
         logical, intent(inout) :: ok
-        character(4), parameter :: functions(5) = ["sin ", "cos ", "exp ", "sqrt", "    "]
+        character(4), parameter :: functions(7) = ["sinh", "cosh", "sin ", "cos ", "exp ", &
+                                                 "sqrt", "    "]
         integer :: i, length, digits
 
         value = 0.0_dp
@@ -172,6 +173,8 @@ contains
             case ("sin"); value = sin(value)
             case ("cos"); value = cos(value)
             case ("exp"); value = exp(value)
+            case ("cosh"); value = cosh(value)
+            case ("sinh"); value = sinh(value)
             case ("sqrt"); value = sqrt(value)
             case default; continue  ! a bracket
             end select

@@ -83,7 +83,7 @@ contains
                 end do
             end do
         end do
-        call assertEqual(965, planted, message="slips are planted")
+        call assertEqual(989, planted, message="slips are planted")
         call assertEqual(harmless, unseen)
     contains
         logical function has_damping()

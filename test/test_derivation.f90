@@ -80,7 +80,7 @@ contains
         real(dp), allocatable :: values(:)
         logical, allocatable :: fixed(:)
         integer, parameter :: of_three_states(3, built_in) = reshape([ &
-            45, 36, 36, 57, 63, 63, 117, 117, 117, 111, 111, 111, 48, 54, 54, 81, 81, 81, &
+            45, 36, 36, 57, 69, 63, 117, 117, 117, 111, 111, 111, 48, 54, 54, 81, 81, 81, &
             117, 117, 117, 78, 126, 126, 57, 57, 57, 78, 78, 78, 45, 45, 45, 36, 36, 36, &
             162, 162, 162], [3, built_in])  !! lines of each draw: zeros have fewer terms
         integer :: before, draw, i, lines
@@ -115,7 +115,7 @@ contains
             "coupled_oscillators", "damped_oscillator", "dry_friction", "duffing", "foucault", &
             "kepler", "pendulum_in_x_and_y", "rotating_frame", "skate", "spherical_pendulum", &
             "symmetric_top", "turning_wire", "two_bodies"]
-        integer, parameter :: of_three_states(*) = [90, 81, 54, 141, 81, 54, 39, 36, 69, 60, 63, &
+        integer, parameter :: of_three_states(*) = [90, 81, 54, 141, 81, 54, 45, 36, 69, 60, 63, &
             69, 57, 108, 78, 87, 123]
         integer :: i, lines
 

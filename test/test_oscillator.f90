@@ -1,5 +1,6 @@
 module test_oscillator
     !! The oscillator and its closed form.
+    use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertRelativelyEqual, &
                      assertTrue
     use lagrangia_description, only: description_t
@@ -7,6 +8,8 @@ module test_oscillator
     use lagrangia_kinds, only: dp
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_text, only: to_text
+    use printed_names, only: name_state
     use random_states, only: draw_parameters, draw_state, restart_random
     use reference_checks, only: check_reference, check_state
     implicit none (type, external)
@@ -24,6 +27,8 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("no_spring_no_force", no_spring_no_force, &
                                       setUp=restart_random))
+        call suite%addTest(TestMethod("printed_motion_is_the_reference", &
+                                      printed_motion_is_the_reference))
         call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
                                       setUp=restart_random))
     end function oscillator_suite
@@ -63,6 +68,44 @@ contains
         call check_state(reference, 4.0_dp, [5.0_dp], [0.5_dp], 0.0_dp, "uniform")
         call assertEqual(0.0_dp, reference%period)
     end subroutine no_spring_no_force
+
+    subroutine printed_motion_is_the_reference()
+        !! The motion that is printed, of any damping: below, at and beyond the critical one, b = 2,
+        !! far beyond it, where cosh and sinh would cancel, and without a spring.
+        real(dp), parameter :: dampings(12) = [0.3_dp, 1.9999_dp, 2.0_dp, 2.0001_dp, 3.9_dp, &
+                                               4.0_dp, 4.00000001_dp, 6.0_dp, 50.0_dp, 1e3_dp, &
+                                               1.0_dp, 1e-20_dp]
+        real(dp), parameter :: times(3) = [0.5_dp, 3.0_dp, 20.0_dp], start = 0.7_dp, push = -0.3_dp
+        type(oscillator_t) :: system
+        class(reference_t), allocatable :: reference
+        type(description_t) :: d
+        type(names_t) :: letters
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), size_of, value
+        logical :: ok
+        integer :: i, k
+
+        do i = 1, size(dampings)
+            call system%configure([1.0_dp, merge(0.0_dp, 1.0_dp, i > size(dampings) - 2), &
+                                   dampings(i)], error)
+            call system%describe(d)
+            call assertTrue(allocated(d%motion), "a motion with b = "//to_text(dampings(i)))
+            if (.not. allocated(d%motion)) return
+            call system%closed_form(0.0_dp, [start], [push], reference)
+            do k = 1, size(times)
+                if (dampings(i)*times(k) > 1e3_dp) cycle  ! sinh overflows
+                call name_state(system, times(k), [start], [push], letters)
+                call letters%set("x_0", start)
+                call letters%set("x_dot_0", push)
+                call letters%set("t", times(k))
+                call formula_value(trim(d%motion(1)(5:)), letters, value, size_of, ok)
+                call assertTrue(ok, trim(d%motion(1)))
+                call reference%state_at(times(k), q, v)
+                call assertEqual(q(1), value, 1e-12_dp, "b = "//to_text(dampings(i))//", t = "// &
+                                 to_text(times(k)))
+            end do
+        end do
+    end subroutine printed_motion_is_the_reference
 
     subroutine reference_solves_it()
         !! From random states.

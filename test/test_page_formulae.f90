@@ -77,7 +77,7 @@ contains
         call try("constraints", "disk, R = 0.3 m", letters, read_of)
         call assertEqual(9, read_of, "the disk")
         call try("constraints", "degrees of freedom", letters, read_of)
-        call assertEqual(13, read_of, "3n - k")
+        call assertEqual(14, read_of, "3n - k")
     end subroutine constraints_page
 
     subroutine least_time_page()

@@ -19,6 +19,7 @@ contains
 
         suite = TestSuite("phase_space")
         call suite%addTest(TestMethod("numbers_by_hand", numbers_by_hand))
+        call suite%addTest(TestMethod("what_bounds_an_exponent", what_bounds_an_exponent))
         call suite%addTest(TestMethod("the_picture", the_picture))
     end function phase_space_suite
 
@@ -43,6 +44,30 @@ contains
         call check_row(page, "cart-pendulum", "is -dH/dtheta", force, -0.63_dp*g*sin(1.1_dp), &
                        1e-9_dp)
     end subroutine numbers_by_hand
+
+    subroutine what_bounds_an_exponent()
+        !! Neighbours that part as t leave ln(400/100)/(300 s); five times that bounds the regular
+        !! motions, which stay below a half of it, and the control is that of the chaotic one.
+        type(report_t) :: page
+        real(dp), parameter :: bound = 5.0_dp*log(4.0_dp)/300.0_dp
+        integer :: i, found
+
+        call new_page("phase-space", page)
+        found = 0
+        do i = 1, size(page%rows)
+            associate (row => page%rows(i))
+                if (index(row%group, "how fast") /= 1 .or. index(row%name, "10 sigma") > 0) cycle
+                found = found + 1
+                call assertEqual(bound, row%most, 1e-15_dp, row%name)
+                if (row%control) then
+                    call assertTrue(row%left > 10.0_dp*bound, "chaos: "//row%name)
+                else
+                    call assertTrue(abs(row%left) < 0.5_dp*bound, row%name)
+                end if
+            end associate
+        end do
+        call assertEqual(3, found, "exponents")
+    end subroutine what_bounds_an_exponent
 
     subroutine the_picture()
         !! One line; the energy of the point whose way is drawn stays; the rim returns to itself.

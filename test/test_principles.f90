@@ -27,7 +27,7 @@ module test_principles
         section_t("constraints", "scleronomic or rheonomic", 3, 0), &
         section_t("constraints", "classes as computed", 11, 0), &
         section_t("constraints", "double pendulum", 2, 1), &
-        section_t("constraints", "degrees of freedom", 4, 0), &
+        section_t("constraints", "degrees of freedom", 5, 0), &
         section_t("constraints", "disk, R = 0.3 m: roll by 5 rad", 4, 1), &
         section_t("virtual-work", "virtual displacements", 5, 1), &
         section_t("virtual-work", "bead on a rotating wire", 2, 1), &
@@ -86,8 +86,8 @@ module test_principles
         section_t("gauss-hertz", "Gauss, cart-pendulum", 3, 1), &
         section_t("gauss-hertz", "Hertz: a mass of no weight on a", 3, 0), &
         section_t("gauss-hertz", "with weight: Hertz has no force", 1, 2), &
-        section_t("all-paths", "pendulum, 0 to 1 rad in T = 9/", 11, 1), &
-        section_t("all-paths", "descent: from a straight line,", 7, 3), &
+        section_t("all-paths", "pendulum, 0 to 1 rad in T = 9/", 12, 1), &
+        section_t("all-paths", "descent, 240 pieces: from a straight line,", 7, 3), &
         section_t("all-paths", "oscillator, 1 m to 0.5 m", 3, 1), &
         section_t("phase-space", "cart-pendulum: H(q, p) = sum", 4, 1), &
         section_t("phase-space", "pendulum: the area of a cloud", 2, 1), &
@@ -120,7 +120,8 @@ contains
     end function principles_suite
 
     subroutine all_is_as_it_must_be()
-        !! Statements hold; controls fail by far more than rounding; each line fits the screen.
+        !! Statements hold; controls fail by far more than rounding, or by ten times what else
+        !! bounds them; each line fits the screen.
         character(16), allocatable :: names(:)
         type(report_t) :: report
         type(error_t), allocatable :: error
@@ -134,8 +135,10 @@ contains
             do k = 1, size(report%rows)
                 associate (row => report%rows(k))
                     call assertTrue(row%as_it_must(), trim(names(i))//": "//row%name)
+                    ! a bound beyond 0.01 is no rounding
                     if (row%control) call assertGreaterThan(row%value, &
-                        max(1e3_dp*row%most, 1e-6_dp), message="control: "//row%name)
+                        max(merge(10.0_dp, 1e3_dp, row%most > 0.01_dp)*row%most, 1e-6_dp), &
+                        message="control: "//row%name)
                     call assertLessThanOrEqual(len(statement_line(row)), 100, message=row%name)
                     call assertLessThanOrEqual(len_trim(row%name), len(row%name) - 1, &
                                                message=row%name)

@@ -42,6 +42,8 @@ contains
                                       level_conserves_p_phi_not_p_x, setUp=restart_random))
         call suite%addTest(TestMethod("incline_does_not_conserve_p_phi", &
                                       incline_does_not_conserve_p_phi, setUp=restart_random))
+        call suite%addTest(TestMethod("p_phi_is_of_the_rolling_disk", &
+                                      p_phi_is_of_the_rolling_disk))
         call suite%addTest(TestMethod("p_theta_is_the_momentum", p_theta_is_the_momentum, &
                                       setUp=restart_random))
     end function rolling_disk_suite
@@ -252,6 +254,33 @@ contains
         call flow_derivative(disk, 2, t, q, v, rate, scale)
         call assertEqual(1.7_dp*9.81_dp*sin(-0.3_dp)*0.6_dp*sin(q(4)), rate, differencing*scale)
     end subroutine incline_does_not_conserve_p_phi
+
+    subroutine p_phi_is_of_the_rolling_disk()
+        !! \(\partial T/\partial\dot\varphi\) with \(\dot x = r\dot\varphi\sin\theta\),
+        !! \(\dot y = -r\dot\varphi\cos\theta\) put into T; that of L is \(I\dot\varphi\). Both
+        !! are said, on the level and on an incline. On the level T is L.
+        type(rolling_disk_t) :: disk
+        type(description_t) :: d
+        real(dp), parameter :: q(4) = [0.2_dp, -0.3_dp, 0.5_dp, 0.8_dp]
+        real(dp), parameter :: rates(2) = [1.7_dp, -0.4_dp]
+        type(hyperdual_t) :: rolling(4), l
+        real(dp) :: p(4)
+        integer :: i
+
+        do i = 1, 2
+            call build(disk, 1.3_dp, 0.3_dp, 0.07_dp, 0.04_dp, 9.81_dp, 0.2_dp*(i - 1))
+            call disk%describe(d)
+            call assertEqual("p_phi", trim(d%quantities(2)%name))
+            call assertTrue(any(d%notes == "p_phi is dT/dphi_dot with the rolling put into T; "// &
+                                "dL/dphi_dot is i_roll phi_dot."), "said")
+            rolling = hyperdual([0.3_dp*rates(1)*sin(q(4)), -0.3_dp*rates(1)*cos(q(4)), rates])
+            call disk%momenta(0.0_dp, q, rolling%re, p)
+            call assertEqual(0.07_dp*rates(1), p(3), 1e-15_dp, "dL/dphi_dot")
+            rolling(:3)%d1 = [0.3_dp*sin(q(4)), -0.3_dp*cos(q(4)), 1.0_dp]
+            l = disk%lagrangian(hyperdual(0.0_dp), hyperdual(q), rolling)
+            call assertEqual(l%d1, disk%quantity(2, 0.0_dp, q, rolling%re), 1e-15_dp, "dT/dphi_dot")
+        end do
+    end subroutine p_phi_is_of_the_rolling_disk
 
     subroutine p_theta_is_the_momentum()
         !! p_theta = dL/dtheta_dot. p_phi is dL/dphi_dot once the disk rolls: with the momenta

@@ -8,7 +8,8 @@ module lagrangia_modes_command
     use lagrangia_damped_rates, only: damped_rates
     use lagrangia_data_files, only: data_path
     use lagrangia_degrees, only: degrees_in
-    use lagrangia_description, only: description_t, figure_length, sizes_of_places
+    use lagrangia_description, only: description_t, figure_length
+    use lagrangia_equilibrium, only: missed_text, place_text
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_array, json_element, json_item, json_list, json_object, &
@@ -111,9 +112,7 @@ contains
         end if
         if (d%named_in_scene .and. allocated(d%equilibrium) .and. .not. line%has("at") .and. &
             .not. line%has("quiet")) then
-            if (any(abs(modes%at - at) > 1e-9_dp*max(sizes_of_places(d), abs(at)))) call note( &
-                "the scene's equilibrium, "//point(d, at)//", is none; from there Newton's "// &
-                "method leads to "//point(d, modes%at))
+            if (missed_text(d, at, modes%at) /= "") call note(missed_text(d, at, modes%at))
         end if
         elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
@@ -158,7 +157,7 @@ contains
 
         call system%describe(d)
         n = size(modes%omega2)
-        call put_line(trim(d%name)//": small oscillations about "//point(d, modes%at))
+        call put_line(trim(d%name)//": small oscillations about "//place_text(d, modes%at))
         if (n <= widest) then
             call put_matrix("M", modes%mass)
             call put_matrix("K", modes%stiffness)
@@ -320,20 +319,6 @@ contains
             if (is_nonzero(omega2)) difference = difference/abs(omega2)
         end associate
     end function relative
-
-    pure function point(d, at) result(text)
-        !! `x = 0.0, theta = 0.0`.
-        type(description_t), intent(in) :: d
-        real(dp), intent(in) :: at(:)
-        character(:), allocatable :: text
-        integer :: i
-
-        text = trim(d%coordinates(1)%name)//" = "//to_text(at(1) + 0.0_dp)  ! no sign of a zero
-        do i = 2, min(size(at), widest)
-            text = text//", "//trim(d%coordinates(i)%name)//" = "//to_text(at(i) + 0.0_dp)
-        end do
-        if (size(at) > widest) text = text//", ..."
-    end function point
 
     subroutine put_matrix(name, a)
         !! Row by row.

@@ -5,7 +5,8 @@ module lagrangia_derivation_drag
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, line_rates
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
     use lagrangia_exact_number, only: ratio
-    use lagrangia_expression, only: expression_t, operator(**), operator(-)
+    use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(**), operator(+), &
+                                    operator(-)
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_kinds, only: dp, i8
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
@@ -20,20 +21,21 @@ module lagrangia_derivation_drag
 
 contains
 
-    subroutine add_rates(self, letter, mass, drag, stiffness)
-        !! Of \(M\ddot q + C\dot q + Kq = 0\): with one coordinate
-        !! \(q = e^{-\gamma t}\cos\omega t\), \(\gamma = C/(2M)\), \(\omega^2 = K/M - \gamma^2\);
-        !! with more \(\det(\lambda^2M + \lambda C + K) = 0\).
+    subroutine add_rates(self, letter, mass, drag, stiffness, lambda)
+        !! Of \(M\ddot q + C\dot q + Kq = 0\): with one coordinate \(\gamma = C/(2M)\) and
+        !! \(\omega^2 = K/M - \gamma^2\), whose sign decides what q is; with more
+        !! \(\det(\lambda^2M + \lambda C + K) = 0\).
         type(derivation_t), intent(inout) :: self                      !! gets the lines
         character, intent(in) :: letter  !! `C`, or `B` with gyroscopic forces in it
         type(polynomial_t), intent(in) :: mass(:, :), drag(:, :), stiffness(:, :)  !! (n, n)
+        complex(dp), intent(in) :: lambda(:)  !! 1/s, as `damped_rates` has them; (0): unknown
         type(polynomial_t), allocatable :: matrix(:, :), c(:)
         type(polynomial_t) :: p
         character(:), allocatable :: rest
         integer :: i, k
 
         if (self%n == 1) then
-            call add_one(self, mass(1, 1), drag(1, 1), stiffness(1, 1))
+            call add_one(self, mass(1, 1), drag(1, 1), stiffness(1, 1), lambda)
             return
         end if
         if (self%n > most_expanded) then
@@ -70,24 +72,76 @@ contains
         end function tex
     end subroutine add_rates
 
-    subroutine add_one(self, mass, drag, stiffness)
-        !! \(\gamma\) and \(\omega^2\).
+    subroutine add_one(self, mass, drag, stiffness, lambda)
+        !! \(\gamma\), \(\omega^2\), and what q is at the given parameters: \(e^{-\gamma t}
+        !! \cos\omega t\) where \(\omega^2 > 0\), \((A + Bt)e^{-\gamma t}\) where it is zero,
+        !! else the sum of two exponentials of the rates
+        !! \(\gamma_{1,2} = \gamma\mp\sqrt{\gamma^2 - K/M}\).
         type(derivation_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: mass, drag, stiffness
-        type(expression_t) :: free, rate
-        character(:), allocatable :: name, letter
+        complex(dp), intent(in) :: lambda(:)
+        type(expression_t) :: free, rate, root
+        character(:), allocatable :: case_of, name, letter, tex
+        logical :: decays, two_rates
 
         name = trim(self%symbols%names(self%omega()))
         letter = "gamma"
-        if (self%symbols%find(letter) > 0) letter = "Gamma"
+        if (any([self%symbols%find(letter), self%symbols%find(letter//"_1"), &
+                 self%symbols%find(letter//"_2")] > 0)) letter = "Gamma"
+        tex = latex_name(letter)
         call lay_out_quotient(self%algebra, self%roles, drag, whole_polynomial(2)*mass, rate)
         call lay_out_quotient(self%algebra, self%roles, stiffness, mass, free)
-        call self%add_words("q goes as exp(-"//letter//" t) cos("//name//" t)", &
-                            "$q$ goes as $e^{-"//latex_name(letter)//" t} \cos("// &
-                            latex_name(name)//" t)$")
-        call self%add(line_decay, letter, latex_name(letter), drag, e=rate)
+        decays = .false.
+        if (drag%terms > 0 .and. size(lambda) > 0) decays = all(real(lambda) < 0.0_dp)
+        two_rates = .false.
+        if (size(lambda) == 2) two_rates = abs(lambda(1) - lambda(2)) > 0.0_dp
+        if (two_rates) then
+            case_of = "^2 < 0 at these parameters"// &
+                      trim(merge(", overdamped", "            ", decays))
+            call self%add_words("q goes as A exp(-"//letter//"_1 t) + B exp(-"//letter// &
+                                "_2 t): "//name//case_of, "$q$ goes as $A e^{-"//tex//"_1 t} "// &
+                                "+ B e^{-"//tex//"_2 t}$: $"//latex_name(name)//"^2 < 0$"// &
+                                case_of(7:))
+        else if (size(lambda) == 2) then
+            case_of = "^2 = 0 at these parameters"// &
+                      trim(merge(", critically damped", "                   ", decays))
+            call self%add_words("q goes as (A + B t) exp(-"//letter//" t): "//name//case_of, &
+                                "$q$ goes as $(A + B t) e^{-"//tex//" t}$: $"// &
+                                latex_name(name)//"^2 = 0$"//case_of(7:))
+        else
+            case_of = "^2 > 0 at these parameters"// &
+                      trim(merge(", underdamped", "             ", decays))
+            if (size(lambda) == 0) case_of = "^2 > 0"
+            call self%add_words("q goes as exp(-"//letter//" t) cos("//name//" t): "//name// &
+                                case_of, "$q$ goes as $e^{-"//tex//" t} \cos("// &
+                                latex_name(name)//" t)$: $"//latex_name(name)//"^2 > 0$"// &
+                                case_of(7:))
+        end if
+        call self%add(line_decay, letter, tex, drag, e=rate)
         if (drag%terms > 0) free = free - rate**2
         call self%add(line_damped_omega2, name//"^2", "\"//name//"^2", stiffness, e=free)
+        if (.not. two_rates) return
+        if (stiffness%terms == 0) then
+            call self%add(line_decay, letter//"_1", tex//"_1", stiffness, 1)
+            call lay_out_quotient(self%algebra, self%roles, drag, mass, rate)
+            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=rate)
+            return
+        end if
+        call lay_out_quotient(self%algebra, self%roles, -stiffness, mass, root)
+        if (drag%terms > 0 .and. stiffness%coefficient(1)%value < 0.0_dp) then
+            root = rate**2 + root
+        else if (drag%terms > 0) then
+            call lay_out_quotient(self%algebra, self%roles, stiffness, mass, free)
+            root = rate**2 - free
+        end if
+        root = apply(f_sqrt, root)
+        if (drag%terms > 0) then
+            call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=rate - root)
+            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=rate + root)
+        else
+            call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=-root)
+            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=root)
+        end if
     end subroutine add_one
 
     subroutine collect_powers(self, p, name, step, c)

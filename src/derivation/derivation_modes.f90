@@ -1,12 +1,14 @@
 module lagrangia_derivation_modes
     !! The equations of motion linearised about the equilibrium, and the frequencies that follow,
     !! beside LAPACK's numbers.
+    use lagrangia_damped_rates, only: damped_rates
     use lagrangia_derivation, only: derivation_t, line_characteristic, line_equilibrium, &
                                     line_gyroscopic, line_omega2, line_rest_mass, line_stiffness
     use lagrangia_derivation_drag, only: add_polynomial, add_rates, collect_powers
     use lagrangia_derivation_linear, only: add_linear
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
     use lagrangia_derivation_place, only: linearise, read_equilibrium
+    use lagrangia_equilibrium, only: missed_text
     use lagrangia_errors, only: error_t
     use lagrangia_exact_number, only: number_t, operator(-), ratio
     use lagrangia_expression, only: apply, expression_t, f_sqrt, function_names, &
@@ -38,6 +40,7 @@ contains
         logical, intent(in) :: slipped             !! a formula is wrong on purpose
         type(modes_t) :: modes, others
         type(error_t), allocatable :: error
+        character(:), allocatable :: missed
 
         self%next_heading = "small oscillations"
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
@@ -49,6 +52,13 @@ contains
         if (allocated(error)) then
             call self%add_words("none: "//error%message)
             return
+        end if
+        if (allocated(self%d%equilibrium_formulas)) then
+            missed = missed_text(self%d, likely_equilibrium(system), modes%at)
+            if (missed /= "") then
+                call self%add_words(missed)
+                return
+            end if
         end if
         call add_place(self, system, modes)
         if (.not. allocated(modes%analytic%elsewhere)) return
@@ -95,6 +105,7 @@ contains
         type(polynomial_t), allocatable :: at(:), mass(:, :), gyroscopic(:, :), stiffness(:, :)
         character(:), allocatable :: tex, turning, where_at
         character :: letter
+        complex(dp), allocatable :: lambda(:)
         logical :: of_position, away, drag
         integer, allocatable :: resting(:)
         integer :: i
@@ -146,7 +157,9 @@ contains
         call add_elements(self, line_stiffness, "K", stiffness)
         call add_linear(self, mass, gyroscopic, stiffness)
         if (drag) then
-            call add_rates(self, letter, mass, gyroscopic, stiffness)
+            call damped_rates(system, modes, lambda, error)
+            if (allocated(error)) lambda = [complex(dp) ::]
+            call add_rates(self, letter, mass, gyroscopic, stiffness, lambda)
         else
             call add_roots(self, mass, gyroscopic, stiffness)
         end if

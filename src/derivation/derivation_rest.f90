@@ -80,8 +80,12 @@ contains
         case (line_decay, line_damped_omega2)
             call one_rate(system, modes, gamma, omega2, c%known)
             if (.not. c%known) return
+            if (line%i > 0) then
+                call compare_exponential(modes, gamma, omega2, line, c)
+                return
+            end if
             c%program = merge(gamma, omega2, line%kind == line_decay)
-            noise = maxval(abs(modes%omega2)) + gamma**2
+            noise = max(maxval(abs(modes%omega2)), abs(omega2)) + gamma**2
             if (line%kind == line_decay) noise = sqrt(noise)
             c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*noise
         case (line_linear)
@@ -113,6 +117,22 @@ contains
         end select
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
     end subroutine compare_modes
+
+    pure subroutine compare_exponential(modes, gamma, omega2, line, c)
+        !! Of two exponentials the slower (1) or the faster (2) rate,
+        !! \(\gamma\mp\sqrt{-\omega^2}\): rounding of \(\omega^2\), as of its own line, through
+        !! the root.
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(in) :: gamma, omega2  !! of LAPACK's rates
+        type(line_t), intent(in) :: line
+        type(comparison_t), intent(inout) :: c
+        real(dp) :: noise, root
+
+        root = sqrt(max(-omega2, 0.0_dp))
+        c%program = gamma + merge(-root, root, line%i == 1)
+        noise = 256.0_dp*epsilon(1.0_dp)*(abs(omega2) + gamma**2)
+        c%noise = c%noise + noise/max(root, sqrt(noise), tiny(noise)) + sqrt(epsilon(noise)*noise)
+    end subroutine compare_exponential
 
     pure function imaginary(polynomial, omega) result(turned)
         !! A polynomial of \(\omega^2\) with \(i\omega\) for \(\omega\): \((i\omega)^m =

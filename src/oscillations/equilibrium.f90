@@ -17,9 +17,39 @@ module lagrangia_equilibrium
     use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
-    public :: expand_at_rest, expansion_moves, force_at_rest, settle, stiffness_beside
+    public :: expand_at_rest, expansion_moves, force_at_rest, missed_text, place_text, settle, &
+              stiffness_beside
 
 contains
+
+    pure function missed_text(d, stated, at) result(text)
+        !! A sentence where a stated equilibrium is none; "" where it is one.
+        type(description_t), intent(in) :: d   !! of the system
+        real(dp), intent(in) :: stated(:)      !! (n), where the scene says that it is
+        real(dp), intent(in) :: at(:)          !! (n), where `settle` came to from there
+        character(:), allocatable :: text
+        real(dp), parameter :: same = 1e-9_dp  ! far above the rounding of a step of Newton's
+
+        text = ""
+        if (any(abs(at - stated) > same*max(sizes_of_places(d), abs(stated)))) text = &
+            "the scene's equilibrium, "//place_text(d, stated)//", is none; from there "// &
+            "Newton's method leads to "//place_text(d, at)
+    end function missed_text
+
+    pure function place_text(d, at) result(text)
+        !! `x = 0.0, theta = 0.0`: the first eight coordinates.
+        type(description_t), intent(in) :: d  !! of the system
+        real(dp), intent(in) :: at(:)         !! (n), where
+        character(:), allocatable :: text
+        integer, parameter :: most = 8
+        integer :: i
+
+        text = trim(d%coordinates(1)%name)//" = "//to_text(at(1) + 0.0_dp)  ! no sign of a zero
+        do i = 2, min(size(at), most)
+            text = text//", "//trim(d%coordinates(i)%name)//" = "//to_text(at(i) + 0.0_dp)
+        end do
+        if (size(at) > most) text = text//", ..."
+    end function place_text
 
     subroutine settle(system, wanted, q, error)
         !! Newton's method from `q` to an equilibrium; where it leads to none, down to a minimum of

@@ -56,6 +56,10 @@ contains
         if (allocated(error)) return
         call draw_variations(oscillator, pendulum, report, error)
         call report%note("Discrete action: points a step h apart, S_d = sum of h (L_k + L_k+1)/2.")
+        call report%note("Oscillator: m = "//to_text(m)//" kg, k = "//to_text(k)// &
+                         " N/m, w = omega = "//to_text(omega)//"/s.")
+        call report%note("Pendulum: m = "//to_text(bob)//" kg, l = "//to_text(l)//" m, g = "// &
+                         to_text(g)//" m/s^2.")
         call report%note("P: period. Neighbouring paths from the start meet at conjugate points.")
     end subroutine action_principle
 

@@ -40,8 +40,8 @@ contains
         type(report_t), intent(out) :: report  !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(pendulum_t) :: pendulum
-        real(dp) :: rates(most), path(1, n + 1), paths(n + 1, most), actions(most)
-        integer :: i, found, indices(most)
+        real(dp) :: rates(most), path(1, n + 1), paths(n + 1, most), actions(most), halved(most)
+        integer :: i, found, indices(most), least
 
         call report%begin("all-paths: between two events a pendulum has several paths, all "// &
                           "with "// &
@@ -64,13 +64,16 @@ contains
             paths(:, i) = path(1, :)
             actions(i) = action_of(pendulum, 0.0_dp, time/n, path)
             call report%equal("path "//to_text(i)//": S of the points, of the closed form", &
-                              richardson_action(pendulum, rates(i), error), &
-                                  closed_action(rates(i)), &
-                              1e-9_dp)
+                              richardson_action(pendulum, rates(i), halved(i), error), &
+                              closed_action(rates(i)), 1e-9_dp)
             if (allocated(error)) return
             call report%equal("path "//to_text(i)//": Morse's index, conjugate points", &
                               real(indices(i), dp), real(conjugate_points(rates(i)), dp), 0.0_dp)
         end do
+        least = minloc(actions(:found), 1)
+        call report%equal("path "//to_text(least)//": error of S, "//to_text(n/2)// &
+                          " pieces over "//to_text(n), halved(least), 4.0_dp, &
+                          (w0*time/(n/2))**2*4.0_dp)
         call report%equal("paths of even index less those of odd", &
                           real(sum((-1)**indices(:found)), dp), 1.0_dp, 0.0_dp)
         call report%equal("is there one path only?", real(found, dp), 1.0_dp, 0.0_dp, &
@@ -80,6 +83,12 @@ contains
         if (allocated(error)) return
         call draw_paths(pendulum, paths(:, :found), indices(:found), report, error)
         if (allocated(error)) return
+        call report%note("S of the points: the limit of ever more pieces. Descent is among "// &
+                         "paths of "//to_text(n)//" pieces;")
+        call report%note("their S_d differs from S by the square of a piece, and is compared "// &
+                         "with S_d of "//to_text(n)//" pieces.")
+        call report%note("Pendulum: m = "//to_text(m)//" kg, l = "//to_text(l)//" m, g = "// &
+                         to_text(g)//" m/s^2, w0^2 = g/l; oscillator: the same m.")
         call report%note("Conjugate points: where neighbours of the path from the start meet "// &
                          "it again.")
         call report%note("Descent: step by step against the slope of S, the ends held; down "// &
@@ -162,18 +171,20 @@ contains
         s = extrapolated(sums)
     end function closed_action
 
-    function richardson_action(pendulum, rate, error) result(s)
+    function richardson_action(pendulum, rate, halved, error) result(s)
         !! Of the points that make \(S_d\) stationary, the limit of ever finer ones.
         class(system_t), intent(in) :: pendulum
         real(dp), intent(in) :: rate
+        real(dp), intent(out) :: halved  !! error of S of n/2 pieces over that of n
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: s, actions(5), speed
         real(dp), allocatable :: path(:, :)
         integer :: i, j, pieces
 
         s = 0.0_dp
+        halved = 0.0_dp
         do i = 1, size(actions)
-            pieces = 60*2**(i - 1)
+            pieces = n/4*2**(i - 1)
             allocate (path(1, pieces + 1))
             do j = 0, pieces
                 call swing(rate, j*time/pieces, path(1, j + 1), speed)
@@ -185,6 +196,7 @@ contains
             deallocate (path)
         end do
         s = extrapolated(actions)
+        halved = (actions(2) - s)/(actions(3) - s)
     end function richardson_action
 
     pure function conjugate_points(rate) result(number)
@@ -243,8 +255,8 @@ contains
         integer :: i, side
 
         least = minval(actions)
-        call report%section("descent: from a straight line, and from paths that are not least  "// &
-                            "[J s]")
+        call report%section("descent, "//to_text(n)//" pieces: from a straight line, and from "// &
+                            "paths that are not least  [J s]")
         path = straight(0.0_dp, goal, n)
         call descend(pendulum, m*l**2, time, path, error)
         if (allocated(error)) return
@@ -291,8 +303,8 @@ contains
 
         call oscillator%configure([m, k], error)
         if (allocated(error)) return
-        call report%section("oscillator, 1 m to 0.5 m, omega = 2/s: S exact, and where "// &
-                            "descent ends")
+        call report%section("oscillator, 1 m to 0.5 m, omega = 2/s: S exact, and where descent "// &
+                            "of "//to_text(n)//" pieces ends")
         do i = 1, 2
             exact = oscillator_action(m, k, times(i), ends(1), ends(2))
             call extrapolated_action(oscillator, times(i), ends(1), ends(2), found, error)

@@ -4,16 +4,22 @@ module lagrangia_constraints
     !! The notes call the disk nonholonomic because mixed partials differ. That shows only that the
     !! form is not exact: \(y\,dx - x\,dy = 0\) fails the same test and is holonomic. What decides
     !! is Frobenius' theorem: no integrating factor.
+    use lagrangia_atwood, only: atwood_t
     use lagrangia_computed_path, only: compute_path
+    use lagrangia_description, only: description_t
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(**), operator(*), &
+                                   operator(+), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
     use lagrangia_lecture_constraints, only: classify, example_point, examples, &
                                              lecture_constraint_t, new_constraint, radius, turning
     use lagrangia_report, only: report_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_rotating_wire, only: rotating_wire_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: constraints_principle
@@ -211,40 +217,110 @@ contains
     end subroutine keep
 
     subroutine degrees_of_freedom(report, error)
-        !! 3n - k, k the number of independent rows of all constraints in Cartesian coordinates.
+        !! 3n - k, k the number of independent constraints in Cartesian coordinates, beside the
+        !! number of ways in which the coordinates of the system move its points as they allow.
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: two(4, 6), rope(5, 6), bead(2, 3)
-        integer :: k
+        type(double_pendulum_t) :: two
+        type(atwood_t) :: rope
+        type(rotating_wire_t) :: bead
 
-        call report%section("degrees of freedom, 3n - k, k: rank of all constraints of n particles")
-        two = 0.0_dp                               ! x1, y1, z1, x2, y2, z2
-        two(1, 3) = 1.0_dp                         ! z1 = 0
-        two(2, 6) = 1.0_dp                         ! z2 = 0
-        two(3, 1:2) = [0.6_dp, -0.7_dp]            ! f1
-        two(4, [1, 2, 4, 5]) = [-0.9_dp, 1.4_dp, 0.9_dp, -1.4_dp]  ! f2
-        call matrix_rank(two, k, error)
+        call report%section("degrees of freedom, 3n - k, k: rank of all constraints of n "// &
+                            "particles; ways to move")
+        call two%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp], error)
+        if (.not. allocated(error)) call count_ways("double pendulum", two, [1.1_dp, 2.3_dp])
+        if (.not. allocated(error)) call rope%configure([1.3_dp, 0.7_dp, 9.81_dp, 0.0_dp, &
+                                                            0.1_dp, 0.0_dp], error)
+        if (.not. allocated(error)) call count_ways("Atwood", rope, [0.4_dp])
+        if (.not. allocated(error)) call bead%configure([0.3_dp, turning], error)
+        if (.not. allocated(error)) call count_ways("bead on the rotating wire", bead, [0.9_dp])
+        if (.not. allocated(error)) call above("y > 0, an inequality: ", 0.5_dp)
         if (allocated(error)) return
-        call report%equal("double pendulum: 6 - 4", 6.0_dp - k, 2.0_dp, 0.0_dp)
-        rope = 0.0_dp                              ! both hang straight down, and share a rope
-        rope(1, 1) = 1.0_dp
-        rope(2, 3) = 1.0_dp
-        rope(3, 4) = 1.0_dp
-        rope(4, 6) = 1.0_dp
-        rope(5, [2, 5]) = 1.0_dp
-        call matrix_rank(rope, k, error)
-        if (allocated(error)) return
-        call report%equal("Atwood: 6 - 5", 6.0_dp - k, 1.0_dp, 0.0_dp)
-        bead(1, :) = [0.0_dp, 0.0_dp, 1.0_dp]
-        bead(2, :) = [-sin(0.6_dp), cos(0.6_dp), 0.0_dp]
-        call matrix_rank(bead, k, error)
-        if (allocated(error)) return
-        call report%equal("bead on the rotating wire: 3 - 2", 3.0_dp - k, 1.0_dp, 0.0_dp)
-        call matrix_rank(bead(:0, :), k, error)
-        if (allocated(error)) return
-        call report%equal("y > 0, an inequality: 3 - 0", 3.0_dp - k, 3.0_dp, 0.0_dp)
         call report%show("E14")
+        call above("the same where it touches, y = 0: ", 0.0_dp)
+    contains
+        subroutine count_ways(name, system, q)
+            !! Of one system at the time 0.4 s.
+            character(*), intent(in) :: name
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: q(:)
+            type(hyperdual_t), allocatable :: r(:, :), x(:), f(:)
+            type(hyperdual_t) :: moved(size(q))
+            type(description_t) :: d
+            real(dp), allocatable :: slopes(:, :), ways(:, :)
+            logical :: allowed(size(q))
+            integer :: i, k, n, possible
+
+            call system%describe(d)
+            n = 3*size(d%points)
+            allocate (r(3, n/3), x(n), f(number_of(name)), slopes(number_of(name), n), &
+                      ways(n, size(q)))
+            do i = 1, size(q)
+                moved = hyperdual(q)
+                moved(i)%d1 = 1.0_dp
+                call system%positions(hyperdual(0.4_dp), moved, r)
+                ways(:, i) = reshape(r%d1, [n])
+            end do
+            do i = 1, n
+                x = hyperdual(reshape(r%re, [n]))
+                x(i)%d1 = 1.0_dp
+                call stated(name, x, f)
+                slopes(:, i) = f%d1
+            end do
+            allowed = maxval(abs(matmul(slopes, ways)), 1) <= rounding
+            call matrix_rank(slopes, k, error)
+            if (.not. allocated(error)) call matrix_rank(ways(:, pack([(i, i=1, size(q))], &
+                                                         allowed)), possible, error)
+            if (allocated(error)) return
+            call report%equal(name//": "//to_text(n)//" - "//to_text(k), real(n - k, dp), &
+                              real(possible, dp), 0.0_dp)
+        end subroutine count_ways
+
+        subroutine above(name, y)
+            !! A particle at this height: a constraint holds where it would be violated next.
+            character(*), intent(in) :: name
+            real(dp), intent(in) :: y
+            real(dp), parameter :: step = 1e-3_dp
+            real(dp) :: slopes(1, 3), place(3)
+            integer :: i, k, possible
+
+            slopes(1, :) = [0.0_dp, 1.0_dp, 0.0_dp]
+            call matrix_rank(slopes(:merge(0, 1, y > 0.0_dp), :), k, error)
+            if (allocated(error)) return
+            possible = 0
+            do i = 1, 3
+                place = [0.2_dp, y, -0.4_dp]
+                place(i) = place(i) - step
+                if (place(2) >= 0.0_dp) possible = possible + 1
+            end do
+            call report%equal(name//"3 - "//to_text(k), real(3 - k, dp), real(possible, dp), 0.0_dp)
+        end subroutine above
     end subroutine degrees_of_freedom
+
+    pure integer function number_of(name)
+        !! How many constraints `stated` has.
+        character(*), intent(in) :: name
+
+        number_of = 2
+        if (name == "double pendulum") number_of = 4
+        if (name == "Atwood") number_of = 5
+    end function number_of
+
+    pure subroutine stated(name, x, f)
+        !! All constraints of a system at 0.4 s, zero but for a constant: x, y, z of each particle.
+        character(*), intent(in) :: name
+        type(hyperdual_t), intent(in) :: x(:)
+        type(hyperdual_t), intent(out) :: f(:)
+
+        select case (name)
+        case ("double pendulum")  ! in a plane, two rods
+            f = [x(3), x(6), x(1)**2 + x(2)**2, (x(4) - x(1))**2 + (x(5) - x(2))**2]
+        case ("Atwood")           ! both hang straight down, and share a rope
+            f = [x(1), x(3), x(4), x(6), x(2) + x(5)]
+        case default              ! bead: in a plane, on the wire
+            f = [x(3), cos(0.4_dp*turning)*x(2) - sin(0.4_dp*turning)*x(1)]
+        end select
+    end subroutine stated
 
     subroutine disk_loop(report, error)
         !! Roll, steer, roll back, steer back: the angles are as before, the place is not.

@@ -15,6 +15,7 @@ module lagrangia_dalembert
     use lagrangia_report, only: report_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: dalembert_principle
@@ -51,6 +52,8 @@ contains
         call on_the_wire(report, error)
         if (allocated(error)) return
         call draw_terms(cart, report, error)
+        call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
+                         " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
         call report%note("Sums: on the left over the masses and their x and y, from x(q); on "// &
                          "the right from T = L + V.")
         call report%note("The accelerations are arbitrary: it holds on any path, not only on "// &

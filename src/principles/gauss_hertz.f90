@@ -12,6 +12,7 @@ module lagrangia_gauss_hertz
     use lagrangia_other_lagrangians, only: bare_lagrangian_t
     use lagrangia_point_motion, only: expand_points, point_motion_t
     use lagrangia_report, only: report_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: gauss_hertz_principle
@@ -43,6 +44,8 @@ contains
         call least_constraint(report, error)
         if (.not. allocated(error)) call on_a_sphere(bends, report, error)
         if (.not. allocated(error)) call draw(bends, report, error)
+        call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
+                         " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
         call report%note("Z = sum of m (x_ddot - F/m)^2 over the masses; delta: other "// &
                          "accelerations of the q;")
         call report%note("M: the mass matrix. Curvature: |acceleration across the path|/v^2.")

@@ -8,6 +8,7 @@ module lagrangia_maupertuis
     use lagrangia_kinds, only: dp
     use lagrangia_report, only: report_t
     use lagrangia_richardson, only: extrapolated
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: maupertuis_principle
@@ -37,6 +38,7 @@ contains
         call with_fixed_time(slopes, report)
         call at_the_envelope(report)
         call draw_throws(slopes, report)
+        call report%note("m = "//to_text(m)//" kg, g = "//to_text(g)//" m/s^2.")
         call report%note("A = int p dq = int m v ds. A path y beside a throw is run through "// &
                          "with "// &
                          "the same energy:")

@@ -12,6 +12,7 @@ module lagrangia_noether
     use lagrangia_report, only: report_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
@@ -39,6 +40,8 @@ contains
         if (.not. allocated(error)) call in_a_field(report, error)
         if (.not. allocated(error)) call on_the_hoop(report, error)
         if (allocated(error)) return
+        call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
+                         " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
         call report%note("Tried: delta q = 1, t or a q in each direction, delta t = 1; F: t, "// &
                          "q, "// &
                          "sin q, cos q, q q'.")

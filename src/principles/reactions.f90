@@ -7,6 +7,7 @@ module lagrangia_reactions
     use lagrangia_computed_path, only: compute_path
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_principle, only: cartesian_t, gauss_equations, least_constraint
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(**), operator(-), operator(/)
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
     use lagrangia_pendulum, only: pendulum_t
@@ -14,6 +15,7 @@ module lagrangia_reactions
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_saddle_point, only: solve_saddle_point
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     use lagrangia_vectors, only: farthest
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
@@ -23,6 +25,7 @@ module lagrangia_reactions
     integer, parameter :: samples = 301
     real(dp), parameter :: step = 0.01_dp          !! s
     real(dp), parameter :: g = 9.81_dp, m = 0.5_dp, l = 0.8_dp, start = 2.0_dp
+    real(dp), parameter :: m_cart = 1.0_dp         !! kg
     real(dp), parameter :: drift = 1e-12_dp        !! of the method over 300 steps, relative
     real(dp), parameter :: rounding = 1e-13_dp     !! of a few dozen operations on numbers up to 20
 
@@ -52,6 +55,9 @@ contains
         if (.not. allocated(error)) call twice_the_same(report, error)
         if (allocated(error)) return
         call draw_forces(swing, cart, report)
+        call report%note("Pendulum and cart-pendulum: m = m2 = "//to_text(m)//" kg, l = "// &
+                         to_text(l)//" m, g = "//to_text(g)//" m/s^2; cart: m1 = "// &
+                         to_text(m_cart)//" kg.")
         call report%note("Left: multipliers of the 3n equations; right: by hand. Motions of "// &
                          "3 s, "// &
                          "301 samples.")
@@ -117,7 +123,7 @@ contains
         type(forces_t), intent(out) :: forces
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
-        real(dp), parameter :: m1 = 1.0_dp
+        real(dp), parameter :: m1 = m_cart
         type(cart_pendulum_t) :: cart
 
         call cart%configure([m1, m, l, g], error)
@@ -191,7 +197,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         real(dp), parameter :: q(1) = 1.1_dp, v(1) = -1.3_dp
         type(pendulum_t) :: pendulum
-        type(cartesian_t) :: c
+        type(cartesian_t) :: c, other
         real(dp) :: one(4), two(4)
         integer :: rank
 
@@ -199,9 +205,11 @@ contains
         if (allocated(error)) return
         call least_constraint(pendulum, 0.0_dp, q, v, c, error)
         if (allocated(error)) return
-        call matrix_rank(reshape([c%slope(1, :), 2.0_dp*c%slope(1, :)], [3, 2]), rank, error)
-        if (.not. allocated(error)) call solve_with(1.0_dp, one)
-        if (.not. allocated(error)) call solve_with(2.0_dp, two)
+        other = c
+        call state_again(c%x, c%x_dot, other%slope(1, :), other%right(1))
+        call matrix_rank(reshape([c%slope(1, :), other%slope(1, :)], [3, 2]), rank, error)
+        if (.not. allocated(error)) call solve_with(c, one)
+        if (.not. allocated(error)) call solve_with(other, two)
         if (allocated(error)) return
         call report%section("the rod's constraint stated twice, f2 = 2 f1: who of the two "// &
                             "holds "// &
@@ -210,20 +218,37 @@ contains
         call report%equal("x_ddot: held by f1, held by f2  [m/s^2]", one(1), two(1), rounding)
         call report%equal("y_ddot: held by f1, held by f2  [m/s^2]", one(2), two(2), rounding)
         call report%equal("force on the bob, lambda df/dx  [N]", one(4)*c%slope(1, 1), &
-                          two(4)*2.0_dp*c%slope(1, 1), rounding)
+                          two(4)*other%slope(1, 1), rounding)
         call report%equal("is the multiplier the same?", one(4), two(4), rounding, control=.true.)
     contains
-        subroutine solve_with(factor, solution)
-            !! The equations with the constraint times `factor`.
-            real(dp), intent(in) :: factor
+        pure subroutine state_again(x, u, slope, right)
+            !! \(f_2 = \ell - x^2/\ell - y^2/\ell\), twice the system's own: its slope, and with
+            !! \(\ddot f_2 = 0\) the right side.
+            real(dp), intent(in) :: x(3), u(3)
+            real(dp), intent(out) :: slope(3), right
+            type(hyperdual_t) :: at(3), f2
+            integer :: i
+
+            do i = 1, 3
+                at = hyperdual(x)
+                at(i)%d1 = 1.0_dp
+                f2 = l - at(1)**2/l - at(2)**2/l
+                slope(i) = f2%d1
+            end do
+            at = hyperdual(x)
+            at%d1 = u
+            at%d2 = u
+            f2 = l - at(1)**2/l - at(2)**2/l
+            right = -f2%d12
+        end subroutine state_again
+
+        subroutine solve_with(held, solution)
+            !! The equations with this constraint.
+            type(cartesian_t), intent(in) :: held
             real(dp), intent(out) :: solution(4)
-            type(cartesian_t) :: scaled
             real(dp) :: matrix(4, 4), right(4)
 
-            scaled = c
-            scaled%slope = factor*c%slope
-            scaled%right = factor*c%right
-            call gauss_equations(scaled, matrix, right)
+            call gauss_equations(held, matrix, right)
             call solve_saddle_point(matrix, right, solution, error)
         end subroutine solve_with
     end subroutine twice_the_same

@@ -9,6 +9,7 @@ module lagrangia_same_motion_page
     use lagrangia_other_lagrangians, only: crossed_t, growing_t
     use lagrangia_report, only: report_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: same_motion_principle
@@ -32,6 +33,8 @@ contains
         call with_friction(report, error)
         if (allocated(error)) return
         call draw_invariants(report)
+        call report%note("w = "//to_text(omega)//"/s; damped: m = "//to_text(m)//" kg, k = "// &
+                         to_text(k)//" N/m, gamma = "//to_text(gamma)//"/s.")
         call report%note("Off the motion: at any x, x_dot and x_ddot. If L' - L were a dF/dt, "// &
                          "its equations")
         call report%note("would be 0 = 0 there too (lagrangia principle gauge).")

@@ -8,6 +8,7 @@ module lagrangia_small_angle
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_report, only: report_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: small_angle_principle
@@ -50,6 +51,8 @@ contains
         call wrong_sign(report, error)
         if (allocated(error)) return
         call draw_ladder(ladder, report)
+        call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
+                         " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
         call report%note("Powers: log2 of the ratio of two swings, A = 1/80 and 1/160 rad; "// &
                          "they "// &
                          "are whole but for A^2.")

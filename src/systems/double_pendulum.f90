@@ -89,10 +89,10 @@ contains
             "+ (m1 + m2) g sin(theta1) = 0", &
             "l2 theta2_ddot + l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D) + g sin(theta2) = 0"]
         d%frequencies = [ &
-            frequency_t("omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) + sqrt((m1 + m2)^2 "// &
-                        "(l1 + l2)^2 - 4 m1 (m1 + m2) l1 l2))", "theta1 = 0, theta2 = 0"), &
-            frequency_t("omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) - sqrt((m1 + m2)^2 "// &
-                        "(l1 + l2)^2 - 4 m1 (m1 + m2) l1 l2))", "theta1 = 0, theta2 = 0")]
+            both("(m1 + m2)(l1 + l2)", "-", "l1 + l2", "theta1 = 0, theta2 = 0"), &
+            both("(m1 + m2)(l2 - l1)", "+", "l1 - l2", "theta1 = 0, theta2 = pi"), &
+            both("(m1 + m2)(l1 - l2)", "+", "l1 - l2", "theta1 = pi, theta2 = 0"), &
+            both("- (m1 + m2)(l1 + l2)", "-", "l1 + l2", "theta1 = pi, theta2 = pi")]
         d%constraint = "holonomic, scleronomic"
         d%constraint_equations = [character(len(d%title)) :: &
             "x_bob1^2 + y_bob1^2 = l1^2", "(x_bob2 - x_bob1)^2 + (y_bob2 - y_bob1)^2 = l2^2"]
@@ -104,6 +104,19 @@ contains
                     "rod bob1 bob2", "ball bob1", "ball bob2"]
         d%source = "Phys 601, 1 September 2011: double planar pendulum"
     end subroutine describe
+
+    pure function both(sum_of, sign_of, lengths, place) result(frequencies)
+        !! The two roots of \(m_1\ell_1\ell_2\omega^4 - (m_1+m_2)g(\pm\ell_2\pm\ell_1)\omega^2
+        !! \pm (m_1+m_2)g^2 = 0\), a minus where a rod stands on its head.
+        character(*), intent(in) :: sum_of, sign_of, lengths, place
+        type(frequency_t) :: frequencies(2)
+        character(:), allocatable :: root
+
+        root = " sqrt((m1 + m2)^2 ("//lengths//")^2 "//sign_of//" 4 m1 (m1 + m2) l1 l2))"
+        frequencies%equilibrium = place
+        frequencies(1)%equation = "omega^2 = g/(2 m1 l1 l2) ("//sum_of//" +"//root
+        frequencies(2)%equation = "omega^2 = g/(2 m1 l1 l2) ("//sum_of//" -"//root
+    end function both
 
     pure subroutine configure(self, values, error)
         !! In this order: m1, m2, l1, l2, g.

@@ -111,7 +111,8 @@ contains
         d%constraint = "holonomic, rheonomic"
         d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - y_p)^2 = l^2"]
         if (.not. self%driven()) then
-            d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0")]
+            d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0"), &
+                             frequency_t("omega^2 = - g/l", "theta = pi")]
             if (self%nonconservative) deallocate (d%frequencies)
             d%constraint = "holonomic, scleronomic"
             d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - a)^2 = l^2"]

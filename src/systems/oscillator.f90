@@ -123,10 +123,11 @@ contains
             d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cos(omega t) + "// &
                         "(x_dot_0 + gamma x_0)/omega sin(omega t))"]
         else if (self%b**2 > 4.0_dp*self%m*self%k) then
+            ! with cosh it would cancel where gamma_1 is small beside gamma
             d%letters(2)%formula = "sqrt(gamma^2 - k/m)"
-            if (self%b**2 > 16.0_dp*self%m*self%k) return  ! what follows would cancel
-            d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cosh(omega t) + "// &
-                        "(x_dot_0 + gamma x_0)/omega sinh(omega t))"]
+            d%letters = [d%letters, letter_t("gamma_1", "k/(m (gamma + omega))")]
+            d%motion = [character(formula_length) :: "x = x_0 exp(-gamma_1 t) + "// &
+                        "(x_dot_0 + gamma_1 x_0)/omega exp(-gamma t) sinh(omega t)"]
         else
             d%letters = d%letters(:1)
             d%motion = [character(formula_length) :: &

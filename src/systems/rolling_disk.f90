@@ -160,6 +160,7 @@ contains
             "Inclined, steering: it does not run downhill but drifts sideways, at "// &
             "r kappa/(2 theta_dot).", &
             "Lagrange-d'Alembert: the constraint is not put into L.", &
+            "p_phi is dT/dphi_dot with the rolling put into T; dL/dphi_dot is i_roll phi_dot.", &
             "What holds the disk upright resists no motion; v may be given as phi_dot, theta_dot."]
         d%figure = [character(figure_length) :: "plane origin", "trail (x, y, 0)", &
             "field g (sin(incline), 0, - cos(incline))", &
