@@ -680,7 +680,8 @@ refuses 2 "describe what?" describe
 refuses 2 "did you mean 'wedge'?" describe wegde
 refuses 2 "unknown format 'txt'" run pendulum --format txt
 refuses 2 "needs a value" run pendulum --set
-refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
+refuses 2 "these methods work: rk4, stormer_verlet, midpoint, gauss16, and with a tolerance gauss16, dop853" run cart_pendulum --set scene%method=verlet --output "$work/none"
+refuses 2 "these methods work: rk4, and with a tolerance dop853" run rolling_disk --set scene%method=midpoint --set scene%dt=1e-3 --output "$work/none"
 printf "&scene system = 'pendulum' dt = 0.1 duration = 1 q = 1.0 /&lagrangian coordinates = 'x' L = 'x_dot^2/2' /" >"$work/taken.nml"
 refuses 2 "system = 'pendulum': is a system that the program has; leave &lagrangian out" run "$work/taken.nml" --output "$work/none"
 refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
@@ -960,6 +961,14 @@ refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over the
 refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
 refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
+refuses 2 "'y=1' is a start; write '--set scene%q=1'" run bouncing_ball y=1
+refuses 2 "l: '5x' is not a number; write it like 0.01" run pendulum --set pendulum%l=5x
+refuses 2 "sweep over what? '--over y=0.1:3:50', or over = 'y = 0.1:3:50'" sweep bouncing_ball --output "$work/none"
+refuses 2 "an axis of a sweep looks like 'y = 0.1:3:50'" sweep bouncing_ball --over y --keep y --output "$work/none"
+refuses 2 "the axis v needs FROM:TO:COUNT, as in 'v = 0.1:3:50'" sweep bouncing_ball --over v=1:2 --keep y --output "$work/none"
+refuses 2 "the axis y: an end is missing; write 'y = 0.1:3:50'" sweep bouncing_ball --over y=:2:3 --keep y --output "$work/none"
+refuses 2 "'first y = 0.5 rising', 'max COLUMN'" sweep bouncing_ball --over y=1:2:3 --keep first --output "$work/none"
+refuses 2 "only columns are kept, 'x' or 'wrapped x'" sweep ueda --set "sweep%strobe=2 pi" --keep period --output "$work/none"
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2
 refuses 2 "; the groups are scene, pendulum" run pendulum --set b=0.1
 refuses 2 "it is a key of the scene: --set scene%dt=..." run pendulum --dt 0.01

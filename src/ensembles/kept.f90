@@ -146,7 +146,8 @@ contains
                 call fail(error, "a sweep measures no error; 'lagrangia run SCENE' tells that "// &
                           "of one trajectory")
             else if (any(text == ["first", "max  ", "min  "])) then
-                call fail(error, "what is wanted of what? 'first theta = 0.5 rising', 'max COLUMN'")
+                call fail(error, "what is wanted of what? 'first "//trim(coordinates(1))// &
+                          " = 0.5 rising', 'max COLUMN'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
