@@ -45,7 +45,7 @@ module lagrangia_kept
     type :: kept_t
         !! One number of a trajectory.
         character(sweep_text_length) :: text = ""  !! as above
-        character(name_length) :: label = ""      !! one word: its column in the data file
+        character(sweep_text_length) :: label = ""  !! one word: its column in the data file
         character(16) :: unit = "1"
         integer :: kind = 0
         integer :: column = 0      !! of the columns that are evaluated
@@ -264,7 +264,7 @@ contains
     pure function one_word(text) result(word)
         !! `max_theta` for `max theta`, `first_theta=0.5_rising`.
         character(*), intent(in) :: text
-        character(name_length) :: word
+        character(sweep_text_length) :: word
         integer :: i, n
 
         word = ""
