@@ -163,7 +163,8 @@ contains
         call refused("run pendulum dt=0.1", "'dt=0.1' is a setting; write '--set scene%dt=0.1'")
         call refused("run pendulum l=0.1", "'l=0.1' is a setting; write '--set pendulum%l=0.1'")
         call refused("run pendulum theta=1", "'theta=1' is a start; write '--set scene%q=1'")
-        call refused("run pendulum Theta_dot=1", "'Theta_dot=1' is a start; write '--set scene%v=1'")
+        call refused("run pendulum Theta_dot=1", "'Theta_dot=1' is a start; write '--set "// &
+                     "scene%v=1'")
         call refused("compare double_pendulum theta2=1", "'theta2=1' is a start; write --set "// &
                      "'scene%q(2)=1'")
         call refused("sweep ueda x=1", "'x=1' is a start; write '--set scene%q=1'")
@@ -173,7 +174,7 @@ contains
         call refused("modes double_pendulum theta1=1", "'theta1=1' is a place; an equilibrium "// &
                      "is '--at Q1,Q2,...', with all coordinates")
         call refused("check pendulum q=1", "'q=1' is no setting of pendulum, whose parameters "// &
-                     "are m, l, g; write '--set pendulum%m=...'")
+                     "are m, l, g, b; write '--set pendulum%m=...'")
         call refused("run l=2", "'l=2' is a setting without the name of a scene or system "// &
                      "before it, whose it is")
         call refused("modes double_pendulum --at 0 0", "'0' is a number; the place of an "// &

@@ -251,8 +251,9 @@ contains
         end do
         call common_panels(series, panels, "time", left_out, error)
         if (allocated(error)) return
-        if (left_out /= "" .and. .not. quiet) call note("the picture of all runs has no room for "// &
-                                                      left_out)
+        if (left_out /= "" .and. .not. quiet) then
+            call note("the picture of all runs has no room for "//left_out)
+        end if
         call write_overlay(folder, overlay, series, panels, title, "", error)
         if (allocated(error) .or. .not. drawn) return
         call draw_picture(overlay_path(folder, overlay), kind, quiet, error)

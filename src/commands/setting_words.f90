@@ -3,7 +3,6 @@ module lagrangia_setting_words
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_names, only: name_length
     use lagrangia_registry, only: accepts, command_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: keys
@@ -102,8 +101,8 @@ contains
             text = "a place; an equilibrium is '--at Q1,Q2,...', with all coordinates"
         end if
         if (text /= "") return
-        i = place_of(key, [character(name_length) :: (trim(d%coordinates(i)%name)//"_dot", &
-                                                      i=1, size(d%coordinates))])
+        i = 0
+        if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), d%coordinates%name)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//option("scene%"//start_of("v", i, d)//value)
         else if (size(d%parameters) == 0) then
