@@ -990,6 +990,7 @@ refuses 2 "sweep over what? '--over y=0.1:3:50', or over = 'y = 0.1:3:50'" sweep
 refuses 2 "an axis of a sweep looks like 'y = 0.1:3:50'" sweep bouncing_ball --over y --keep y --output "$work/none"
 refuses 2 "the axis v needs FROM:TO:COUNT, as in 'v = 0.1:3:50'" sweep bouncing_ball --over v=1:2 --keep y --output "$work/none"
 refuses 2 "the axis y: an end is missing; write 'y = 0.1:3:50'" sweep bouncing_ball --over y=:2:3 --keep y --output "$work/none"
+refuses 2 "as in event = 'y = 0.5 rising' or event = 'y_dot falling stop'" run bouncing_ball --set "scene%event='y ='" --output "$work/none"
 refuses 2 "'first y = 0.5 rising', 'max COLUMN'" sweep bouncing_ball --over y=1:2:3 --keep first --output "$work/none"
 refuses 2 "only columns are kept, 'x' or 'wrapped x'" sweep ueda --set "sweep%strobe=2 pi" --keep period --output "$work/none"
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2

@@ -175,8 +175,8 @@ contains
                      "is '--at Q1,Q2,...', with all coordinates")
         call refused("check pendulum q=1", "'q=1' is no setting of pendulum, whose parameters "// &
                      "are m, l, g, b; write '--set pendulum%m=...'")
-        call refused("run l=2", "'l=2' is a setting without the name of a scene or system "// &
-                     "before it, whose it is")
+        call refused("run l=2", "'l=2' is a setting; a scene or system goes before it, as in "// &
+                     "'lagrangia run pendulum --set pendulum%l=2'")
         call refused("modes double_pendulum --at 0 0", "'0' is a number; the place of an "// &
                      "equilibrium is '--at Q1,Q2,...', with commas and no blanks")
         call refused("compare pendulum 1 2", "'1' is a number; starts are ""--starts 'Q1,Q2 "// &

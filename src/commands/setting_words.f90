@@ -42,7 +42,8 @@ contains
         else
             call describe_first(command, words, d, found)
             if (.not. found) then
-                text = "a setting without the name of a scene or system before it, whose it is"
+                text = "a setting; a scene or system goes before it, as in 'lagrangia "// &
+                       trim(command%name)//" pendulum --set pendulum%l=2'"
             else
                 text = advice_of(command, key, value, d)
             end if

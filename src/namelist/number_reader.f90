@@ -141,8 +141,9 @@ contains
             if (verify(token(at + 1:), digits) == 0) problem = "holds '_'; write the digits alone"
         case default
             problem = generic
-            if (index(lower(token(behind_sign(token, 1):)), "0x") == 1) &
+            if (index(lower(token(behind_sign(token, 1):)), "0x") == 1) then
                 problem = "is not a decimal number; hexadecimal is not read here"
+            end if
         end select
     end subroutine check_grammar
 
