@@ -143,6 +143,29 @@ run compare pendulum --methods verlet,rk4 --json --output "$work/cmp"
 check "compare --json" json '[e["method"] for e in d] == ["verlet", "rk4"] and d[1]["error"] < 1e-9 < d[0]["error"]'
 run compare pendulum --starts "1 2 0:7" --quiet --output "$work/cmp"
 check "compare --starts: a phase portrait, angles within one turn" eval '[ $status -eq 0 ] && grep -q "set xrange \[-pi:pi\]" "$work/cmp/pendulum_starts.gp" && [ "$(grep "^[^#]" "$work/cmp/pendulum_start_3.dat" | head -n 1)" = " 0.0000000000000000E+000  0.0000000000000000E+000  7.0000000000000000E+000" ]'
+check "compare --starts: each title says its start" eval 'head -n 1 "$work/cmp/pendulum_start_1.dat" | grep -q "pendulum from q = 1$" && head -n 1 "$work/cmp/pendulum_start_3.dat" | grep -q "pendulum from q = 0, v = 7$" && grep -q "^set label 1 .*pendulum from q = 0, v = 7" "$work/cmp/pendulum_start_3.gp"'
+check "compare: the script names the files that it draws" eval '[ "$(head -n 1 "$work/cmp/pendulum_starts.gp")" = "# Draws pendulum_start_1.dat, pendulum_start_2.dat, pendulum_start_3.dat as they lie beside this script." ]'
+run compare hanging_chain --methods rk4,gauss16 --set hanging_chain%n=5 --set scene%q=5*0.1 --set scene%v=5*0 --set scene%duration=0.1 --output "$work/cmp"
+check "compare: of many coordinates it says which are drawn" eval '[ $status -eq 0 ] && grep -qx "of 5 coordinates the files and the picture have the first 3" "$work/out"'
+run run rolling_disk rolling_disk_incline --set "scene%columns=t,x,y,theta,phi,x_dot,y_dot,theta_dot,phi_dot" --overlay --output "$work/cmp"
+check "--overlay: what the picture has no room for is said" eval '[ $status -eq 0 ] && grep -q "the picture of all runs has no room for theta_dot, phi_dot$" "$work/err"'
+run run bouncing_ball --animate --output "$work/cmp"
+check "--animate: the energy of a ball that bounces is not called conserved" eval '[ $status -eq 0 ] && grep -q "\"conserved\": false" "$work/cmp/bouncing_ball.html"'
+run modes rotating_hoop --output "$work/cmp"
+check "modes: the files are of the first equilibrium" eval '[ $status -eq 0 ] && grep -qx "files are of the first equilibrium; those of the other: --at 1.1675569038050428" "$work/out"'
+run modes rotating_hoop --at 1.1675569038050428 --output "$work/cmp"
+check "modes: those of the other, with omega^2 in a few digits and its unit" eval '[ $status -eq 0 ] && grep -q "mode 1: .*^{2} = 21.1506 s^{-2}\"" "$work/cmp/rotating_hoop_at_1.1675569038050428_mode_1.gp"'
+run modes hanging_chain --set hanging_chain%n=13 --output "$work/cmp"
+check "modes: a picture of twelve says of how many" eval '[ $status -eq 0 ] && grep -qx "the picture has the first 12 of 13 modes" "$work/out" && grep -qx "# the first 12 of 13 modes" "$work/cmp/hanging_chain_n_13_modes.dat"'
+for words in modes check describe derive; do
+    run help $words
+    check "help $words: it takes a scene of your own" grep -qx "  a scene of your own      the path of a .nml file" "$work/out"
+done
+run sweep pendulum --over theta=1:2:2 --keep "first theta_dot = -0.1250000000000001 falling" --json --output "$work/cmp"
+check "sweep --json: a count is a number" json 'd["kept"][0]["found"] == 2'
+check "sweep: the whole name of what is kept" eval 'grep -qx "# theta\[rad\] first_theta_dot=-0.1250000000000001_falling\[s\]" "$work/cmp/pendulum_sweep.dat"'
+run sweep section --over theta2_dot=0:1:2 --set sweep%points=2 --output "$work/cmp"
+check "sweep: a title of the scene counts no motions" eval '[ $status -eq 0 ] && ! grep -qi twenty "$work"/cmp/section*sweep.gp'
 for dt in 0.2 0.3; do run compare pendulum --methods rk4,verlet --animate --set scene%dt=$dt --output "$work/cmp"; done
 check "compare --animate: two methods in one film, files of each change" eval '[ $status -eq 0 ] && grep -q "\"reference\": \"verlet\"" "$work/cmp/pendulum_dt_0.2_methods.html" && [ "$(wc -c <"$work/cmp/pendulum_dt_0.3_methods.html")" -lt 300000 ] && grep -q "^film: .*pendulum_dt_0.3_methods.html" "$work/out"'
 refuses 2 "--animate: a film shows two methods, not 3" compare pendulum --methods rk4,verlet,dop853 --animate --output "$work/none"
@@ -680,7 +703,8 @@ refuses 2 "describe what?" describe
 refuses 2 "did you mean 'wedge'?" describe wegde
 refuses 2 "unknown format 'txt'" run pendulum --format txt
 refuses 2 "needs a value" run pendulum --set
-refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
+refuses 2 "these methods work: rk4, stormer_verlet, midpoint, gauss16, and with a tolerance gauss16, dop853" run cart_pendulum --set scene%method=verlet --output "$work/none"
+refuses 2 "these methods work: rk4, gauss16, and with a tolerance gauss16, dop853" run rolling_disk --set scene%method=midpoint --set scene%dt=1e-3 --output "$work/none"
 printf "&scene system = 'pendulum' dt = 0.1 duration = 1 q = 1.0 /&lagrangian coordinates = 'x' L = 'x_dot^2/2' /" >"$work/taken.nml"
 refuses 2 "system = 'pendulum': is a system that the program has; leave &lagrangian out" run "$work/taken.nml" --output "$work/none"
 refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
@@ -960,6 +984,15 @@ refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over the
 refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
 refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
+refuses 2 "'y=1' is a start; write '--set scene%q=1'" run bouncing_ball y=1
+refuses 2 "l: '5x' is not a number; write it like 0.01" run pendulum --set pendulum%l=5x
+refuses 2 "sweep over what? '--over y=0.1:3:50', or over = 'y = 0.1:3:50'" sweep bouncing_ball --output "$work/none"
+refuses 2 "an axis of a sweep looks like 'y = 0.1:3:50'" sweep bouncing_ball --over y --keep y --output "$work/none"
+refuses 2 "the axis v needs FROM:TO:COUNT, as in 'v = 0.1:3:50'" sweep bouncing_ball --over v=1:2 --keep y --output "$work/none"
+refuses 2 "the axis y: an end is missing; write 'y = 0.1:3:50'" sweep bouncing_ball --over y=:2:3 --keep y --output "$work/none"
+refuses 2 "as in event = 'y = 0.5 rising' or event = 'y_dot falling stop'" run bouncing_ball --set "scene%event='y ='" --output "$work/none"
+refuses 2 "'first y = 0.5 rising', 'max COLUMN'" sweep bouncing_ball --over y=1:2:3 --keep first --output "$work/none"
+refuses 2 "only columns are kept, 'x' or 'wrapped x'" sweep ueda --set "sweep%strobe=2 pi" --keep period --output "$work/none"
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2
 refuses 2 "; the groups are scene, pendulum" run pendulum --set b=0.1
 refuses 2 "it is a key of the scene: --set scene%dt=..." run pendulum --dt 0.01

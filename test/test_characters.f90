@@ -3,6 +3,7 @@ module test_characters
     !! name or unit may break.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_characters, only: characters, printable
+    use lagrangia_column_words, only: column_word, unit_word
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_errors, only: error_t
     use lagrangia_json, only: json_string
@@ -129,6 +130,16 @@ contains
         text = head(table, "a b", "m"//end_line//"1")
         text = text(index(text(:len(text) - 1), end_line, back=.true.) + 1:)
         call assertEqual("# t[s] a*b[m\x0A1]"//end_line, text)
+        call assertEqual("flat_throw", column_word("flat throw"))
+        call assertEqual("T_by_hand", column_word("T by hand"))
+        call assertEqual("T,3n_equations", column_word("T, 3n equations"))
+        call assertEqual("rod_of_a_cart-pendulum", column_word("rod of a cart-pendulum"))
+        call assertEqual("without_dT/dtheta", column_word("without dT/dtheta"))
+        call assertEqual("m2*l*x_dot*theta_dot*sin(theta)", &
+                         column_word("m2 l x_dot theta_dot sin(theta)"))
+        call assertEqual("p_x*t-M*x_com", column_word("p_x t - M x_com"))
+        call assertEqual("(m1-m2)/M", column_word("(m1 - m2)/M"))
+        call assertEqual("m/s^2,rad/s^2", unit_word("m/s^2, rad/s^2"))
     end subroutine a_text_table_has_a_word_a_column
 
     subroutine a_csv_table_has_a_cell_a_column()

@@ -243,6 +243,7 @@ contains
         call new_series(series(3), "c", "", ["t", "y"], ["s", "m"], &
                         [range_of([0.0_dp, 1.0_dp]), range_of([-90.0_dp, 90.0_dp])], "C")
         text = gnuplot_script("all.dat", series, "all", "", panels)
+        call assertTrue(index(text, "# Draws a, b, c as they lie beside this script.") == 1, text)
         call assertTrue(index(text, "set xrange [-3.92:31.92]; set yrange [-3.0176:7.0176]") &
                         > 0, text)
         call assertTrue(index(text, "title ""A: y"" noenhanced") > 0, text)

@@ -147,7 +147,8 @@ contains
         call assertTrue(remove_file(folder), "nothing else")
         call system%describe(d)
         call assertEqual("# "//name//", mode "//to_text(j)//": omega^2 = "// &
-                         to_text(modes%omega2(j) + 0.0_dp), text(:index(text, newline) - 1))
+                         to_text(modes%omega2(j) + 0.0_dp)//" s^-2", &
+                         text(:index(text, newline) - 1))
         call assertTrue(index(text, newline//"# rows: 201") > 0, "rows are counted")
         n = index(text, newline//"# t[s] "//trim(d%coordinates(1)%name)//"["// &
                   trim(d%coordinates(1)%unit)//"]")

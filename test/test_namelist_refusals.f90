@@ -224,6 +224,10 @@ contains
         call refused("&a x=-inf /", "1:6: &a: x: '-inf' is not finite; a finite number is needed")
         call refused("&a x=0x1F /", &
                      "1:6: &a: x: '0x1F' is not a decimal number; hexadecimal is not read here")
+        call refused("&a x=-0X1F /", &
+                     "1:6: &a: x: '-0X1F' is not a decimal number; hexadecimal is not read here")
+        call refused("&a x=5x /", "1:6: &a: x: '5x' "//no_number)
+        call refused("&a x=0.0x /", "1:6: &a: x: '0.0x' "//no_number)
         call refused("&a x=1.0_dp /", &
                      "1:6: &a: x: '1.0_dp' has a kind suffix; write the number alone")
         call refused("&a x=1e /", &

@@ -95,9 +95,10 @@ contains
         type(error_t), allocatable :: error
 
         call read_and_plan(adaptive, "s.nml", [word_t ::], scene, system, error)
-        call compare_starts(scene, system, "start_2")
+        call compare_starts(scene, system, "0.1,0.2:3,4", "start_2")
         call assertEqual("t theta1 theta1_dot theta2 theta2_dot", joined(scene))
         call assertEqual("s_start_2", trim(scene%output))
+        call assertEqual("double_pendulum from q = 0.1,0.2, v = 3,4", trim(scene%title))
         call assertEqual(0, size(scene%expectations))
     end subroutine starts_are_compared_alike
 
@@ -119,6 +120,7 @@ contains
         type(series_t), allocatable :: series(:)
         type(panel_t), allocatable :: panels(:)
         type(error_t), allocatable :: error
+        character(:), allocatable :: left_out
         integer :: i
 
         allocate (series(2))
@@ -126,16 +128,23 @@ contains
                   [character(4) :: "s", "1", "m", "m/s", "rad", "m"])
         call make(series(2), [character(12) :: "t", "theta", "x", "error", "r", "x_dot"], &
                   [character(4) :: "s", "rad", "m", "1", "rad", "m/s"])
-        call common_panels(series, panels, "time", error)
+        call common_panels(series, panels, "time", left_out, error)
         call assertFalse(allocated(error), "four in common")
         call assertEqual([1, 1, 1, 1], [(panels(i)%x, i=1, size(panels))])
         call assertEqual([3, 4, 5, 2], [(panels(i)%y(1), i=1, size(panels))])
-        call common_panels(series, panels, "starts", error)
+        call common_panels(series, panels, "starts", left_out, error)
         call assertEqual(1, size(panels))
         call assertEqual(3, panels(1)%x)
         call assertEqual(4, panels(1)%y(1))
+        call assertEqual("", left_out)
+        do i = 1, 2
+            call make(series(i), [character(12) :: "t", "a", "b", "c", "d", "e", "f", "g", "h"], &
+                      [character(4) :: "s", "m", "m", "m", "m", "m", "m", "m", "m"])
+        end do
+        call common_panels(series, panels, "time", left_out, error)
+        call assertEqual("g, h", left_out)
         call make(series(2), [character(12) :: "t", "r"], [character(4) :: "s", "rad"])
-        call common_panels(series, panels, "time", error)
+        call common_panels(series, panels, "time", left_out, error)
         call assertTrue(allocated(error), "nothing in common")
         if (allocated(error)) call assertEqual("these runs have no column in common but the time", &
                                                error%message)

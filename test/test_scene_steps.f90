@@ -112,7 +112,7 @@ contains
     subroutine refused_events()
         character(*), parameter :: scene = pendulum//adaptive
         character(*), parameter :: looks = &
-            "event = 'theta = 0.5 rising' or event = 'tension falling stop'"
+            "event = 'theta = 0.5 rising' or event = 'theta_dot falling stop'"
         character(*), parameter :: behind = "behind '=' a number is needed, or a formula of "// &
             "numbers: "
 

@@ -161,7 +161,22 @@ contains
         call refused("run pendulum pendulum%l=2", "'pendulum%l=2' is a setting; write '--set "// &
                      "pendulum%l=2'")
         call refused("run pendulum dt=0.1", "'dt=0.1' is a setting; write '--set scene%dt=0.1'")
-        call refused("run pendulum l=0.1", "'l=0.1' is a setting; write '--set GROUP%l=0.1'")
+        call refused("run pendulum l=0.1", "'l=0.1' is a setting; write '--set pendulum%l=0.1'")
+        call refused("run pendulum theta=1", "'theta=1' is a start; write '--set scene%q=1'")
+        call refused("run pendulum Theta_dot=1", "'Theta_dot=1' is a start; write '--set "// &
+                     "scene%v=1'")
+        call refused("compare double_pendulum theta2=1", "'theta2=1' is a start; write --set "// &
+                     "'scene%q(2)=1'")
+        call refused("sweep ueda x=1", "'x=1' is a start; write '--set scene%q=1'")
+        call refused("sweep ueda theta=1", "'theta=1' is no setting of ueda, whose parameters "// &
+                     "are b, c, f; write '--set ueda%b=...'")
+        call refused("modes pendulum theta=1", "'theta=1' is a place; write '--at 1'")
+        call refused("modes double_pendulum theta1=1", "'theta1=1' is a place; an equilibrium "// &
+                     "is '--at Q1,Q2,...', with all coordinates")
+        call refused("check pendulum q=1", "'q=1' is no setting of pendulum, whose parameters "// &
+                     "are m, l, g, b; write '--set pendulum%m=...'")
+        call refused("run l=2", "'l=2' is a setting; a scene or system goes before it, as in "// &
+                     "'lagrangia run pendulum --set pendulum%l=2'")
         call refused("modes double_pendulum --at 0 0", "'0' is a number; the place of an "// &
                      "equilibrium is '--at Q1,Q2,...', with commas and no blanks")
         call refused("compare pendulum 1 2", "'1' is a number; starts are ""--starts 'Q1,Q2 "// &

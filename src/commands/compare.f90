@@ -18,7 +18,7 @@ module lagrangia_compare
     use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_output_options, only: is_told, show_picture, take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, compare_methods, compare_starts, &
-                                 overlay_path, run_name, write_overlay
+                                 most_coordinates, overlay_path, run_name, write_overlay
     use lagrangia_places, only: places_t
     use lagrangia_printed_table, only: cell_t, count_cell, number_cell, printed_table_t, &
                                        word_cell
@@ -55,7 +55,7 @@ contains
         type(outcome_t), allocatable :: outcomes(:)
         type(series_t), allocatable :: series(:)
         type(panel_t), allocatable :: panels(:)
-        character(:), allocatable :: folder, format, kind, name, remark, title
+        character(:), allocatable :: folder, format, kind, left_out, name, remark, title
         integer :: i
 
         if (size(line%arguments) == 0) then
@@ -88,7 +88,7 @@ contains
                                 runs(i)%name%text)
         end do
         call common_panels(series, panels, trim(merge("starts", "time  ", line%has("starts"))), &
-                           error)
+                           left_out, error)
         if (allocated(error)) return
         remark = ""
         title = heading(runs(1)%plan%scene)
@@ -101,6 +101,9 @@ contains
         call write_overlay(folder, name, series, panels, title, remark, error)
         if (allocated(error)) return
         call put_results(line, title, runs, outcomes)
+        i = runs(1)%plan%system%ndof
+        if (is_told(line) .and. i > most_coordinates) call put_line("of "//to_text(i)// &
+            " coordinates the files and the picture have the first "//to_text(most_coordinates))
         if (is_told(line)) call put_line("gnuplot script: "// &
                                          script_path(overlay_path(folder, name)))
         if (line%has("plot")) call show_picture(overlay_path(folder, name), kind, line, error)
@@ -190,7 +193,7 @@ contains
             call compare_methods(scene, system, word, error)
         else
             name = run_name(trim(scene%output), "starts")
-            call compare_starts(scene, system, "start_"//to_text(number))
+            call compare_starts(scene, system, word, "start_"//to_text(number))
         end if
         if (allocated(error)) return
         call new_run_plan(run%plan, scene, system, error)

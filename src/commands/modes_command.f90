@@ -16,6 +16,7 @@ module lagrangia_modes_command
                               json_pair, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
+    use lagrangia_mode_script, only: part_of_modes
     use lagrangia_modes_files, only: claim_modes, prepare_modes, write_mode
     use lagrangia_modes_film, only: animate_modes
     use lagrangia_number_class, only: is_nonzero, is_zero
@@ -131,7 +132,13 @@ contains
         if (line%has("animate") .and. is_told(line) .and. .not. allocated(error)) then
             call put_line("film: "//page)
         end if
-        if (allocated(error) .or. .not. (line%has("output") .or. line%has("plot"))) return
+        if (allocated(error)) return
+        if (elsewhere .and. is_told(line) .and. (line%has("output") .or. line%has("plot") .or. &
+                                                 line%has("animate"))) then
+            call put_line("files are of the first equilibrium; those of the other: --at "// &
+                          numbers_of(modes%analytic%elsewhere))
+        end if
+        if (.not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
             call write_mode(system, modes, j, stem, title, error)
@@ -143,6 +150,9 @@ contains
         if (is_told(line)) call put_line("data files and gnuplot scripts: "//folder)
         if (.not. has_positions(system)) return
         call write_mode_picture(system, figure, modes, stem, title, error)
+        if (part_of_modes(modes) /= "" .and. is_told(line) .and. .not. allocated(error)) then
+            call put_line("the picture has "//part_of_modes(modes))
+        end if
         if (allocated(error) .or. .not. line%has("plot")) return
         call show_picture(mode_picture_path(stem), kind, line, error)
     end subroutine modes_command
@@ -319,6 +329,18 @@ contains
             if (is_nonzero(omega2)) difference = difference/abs(omega2)
         end associate
     end function relative
+
+    pure function numbers_of(at) result(text)
+        !! As `--at` takes them.
+        real(dp), intent(in) :: at(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = to_text(at(1))
+        do i = 2, size(at)
+            text = text//","//to_text(at(i))
+        end do
+    end function numbers_of
 
     subroutine put_matrix(name, a)
         !! Row by row.

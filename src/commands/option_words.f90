@@ -3,7 +3,6 @@ module lagrangia_option_words
     use lagrangia_data_files, only: formats, picture_advice, pictures
     use lagrangia_number_reader, only: starts_number
     use lagrangia_registry, only: accepts, command_t, options, told, usage
-    use lagrangia_scene_keys, only: keys
     use lagrangia_text, only: lower
     implicit none (type, external)
     private
@@ -32,8 +31,6 @@ contains
             text = "no format that '--plot' draws; there are "//picture_advice(small)
         else if (accepts(command, "format") .and. any(formats == small)) then
             text = "a format; write '--format "//small//"'"
-        else if (index(word, "=") > 1) then
-            text = setting_advice(command, word)
         else if (starts_number(word) .and. accepts(command, "at")) then
             text = "a number; the place of an equilibrium is '--at Q1,Q2,...', with commas "// &
                    "and no blanks"
@@ -46,25 +43,4 @@ contains
             end do
         end if
     end function option_advice
-
-    pure function setting_advice(command, word) result(text)
-        !! Of `theta=0:1:5` and `pendulum%l=2` without the option before it.
-        type(command_t), intent(in) :: command  !! of `commands`
-        character(*), intent(in) :: word        !! with `=`
-        character(:), allocatable :: text, key
-
-        text = ""
-        key = lower(word(:index(word, "=") - 1))
-        if (accepts(command, "over") .and. index(word, ":") > 0) then
-            text = "an axis; write '--over "//word//"'"
-        else if (.not. accepts(command, "set")) then
-            return
-        else if (index(key, "%") > 0) then
-            text = "a setting; write '--set "//word//"'"
-        else if (any(keys == key)) then
-            text = "a setting; write '--set scene%"//word//"'"
-        else
-            text = "a setting; write '--set GROUP%"//word//"'"
-        end if
-    end function setting_advice
 end module lagrangia_option_words

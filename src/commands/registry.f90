@@ -20,7 +20,7 @@ module lagrangia_registry
         character(80) :: meaning = ""
         integer :: most = 0              !! arguments at most; -1: any number
         character(80) :: accepts = ""    !! options, beside --help and --version
-        character(32) :: takes = ""      !! what its arguments may be: see `lagrangia_vocabulary`
+        character(40) :: takes = ""      !! what its arguments may be: see `lagrangia_vocabulary`
     end type command_t
 
     type(option_t), parameter :: options(*) = [ &
@@ -36,7 +36,7 @@ module lagrangia_registry
         option_t("quick", no_value, "", "measure less, in half a minute or so"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
-        option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured or compared"), &
+        option_t("methods", needs_value, "rk4,gauss16,...", "that are measured or compared"), &
         option_t("starts", needs_value, """Q1,Q2:V1,V2 ...""", "coordinates, perhaps velocities"), &
         option_t("overlay", no_value, "", "draw all runs in one picture as well"), &
         option_t("systems", needs_value, "pendulum,...", "or scenes, whose steps are measured"), &
@@ -70,9 +70,9 @@ module lagrangia_registry
         command_t("report", "[SCENE...]", "one HTML page: scorecard, pictures, films, "// &
                   "derivations, errata", -1, "set output quiet", takes="scenes scene_files"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
-                  "set at output plot animate json quiet", takes="systems scenes"), &
+                  "set at output plot animate json quiet", takes="systems scenes scene_files"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
-                  "orders", -1, "set json quiet", takes="systems scenes methods"), &
+                  "orders", -1, "set json quiet", takes="systems scenes methods scene_files"), &
         command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &
                   "json", takes="slips"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
@@ -96,9 +96,9 @@ module lagrangia_registry
         command_t("show", "[FILE...]", "a scene or sheet that comes with the program, as it is", &
                   -1, "", takes="scenes sweeps carried"), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
-                  "every key of a scene", 1, "set", takes="systems scenes scene"), &
+                  "every key of a scene", 1, "set", takes="systems scenes scene scene_files"), &
         command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &
-                  1, "set numbers slip latex fortran json", takes="systems scenes"), &
+                  1, "set numbers slip latex fortran json", takes="systems scenes scene_files"), &
         command_t("help", "[COMMAND]", "what a command is for, with examples", 1, "", &
                   takes="commands"), &
         command_t("completion", "bash|zsh", "a script by which the shell completes our words", 1, &

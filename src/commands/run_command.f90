@@ -236,7 +236,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(series_t), allocatable :: series(:)
         type(panel_t), allocatable :: panels(:)
-        character(:), allocatable :: title
+        character(:), allocatable :: left_out, title
         integer :: i
 
         allocate (series(size(chosen)))
@@ -249,8 +249,11 @@ contains
                 title = title//trim(plan%scene%name)
             end associate
         end do
-        call common_panels(series, panels, "time", error)
+        call common_panels(series, panels, "time", left_out, error)
         if (allocated(error)) return
+        if (left_out /= "" .and. .not. quiet) then
+            call note("the picture of all runs has no room for "//left_out)
+        end if
         call write_overlay(folder, overlay, series, panels, title, "", error)
         if (allocated(error) .or. .not. drawn) return
         call draw_picture(overlay_path(folder, overlay), kind, quiet, error)

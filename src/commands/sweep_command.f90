@@ -75,11 +75,12 @@ contains
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
                                                     error)
         if (.not. allocated(error)) call read_unchanged(scene, file)
-        if (.not. allocated(error)) call take_options(line, scene, error)
         if (.not. allocated(error)) then
             call system%describe(d)
-            call make_own_sweep(scene, file, line%values_of("set"), (d%parameters%name))
+            call take_options(line, trim(d%coordinates(1)%name), scene, error)
         end if
+        if (.not. allocated(error)) call make_own_sweep(scene, file, line%values_of("set"), &
+                                                        (d%parameters%name))
         if (.not. allocated(error)) call plan(line, scene, system, sweep, error)
         if (.not. allocated(error)) call claim(scene, folder, format, path, error)
         if (allocated(error) .and. image_number() > 1) error%message = ""  ! image 1 has said it
@@ -200,9 +201,10 @@ contains
         if (warning /= "" .and. .not. quiet) call note(warning)
     end subroutine check_size
 
-    subroutine take_options(line, scene, error)
+    subroutine take_options(line, coordinate, scene, error)
         !! What the command line says in the place of `&sweep`.
         type(command_line_t), intent(in) :: line
+        character(*), intent(in) :: coordinate  !! one of the system, for remedies
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
 
@@ -214,8 +216,8 @@ contains
                                                    scene%sweep%threads)
         if (allocated(error)) return
         if (size(scene%sweep%over) == 0) then
-            call fail(error, "sweep over what? '--over theta=0.1:3:50', or over = "// &
-                      "'theta = 0.1:3:50' in the group &sweep of the scene")
+            call fail(error, "sweep over what? '--over "//coordinate//"=0.1:3:50', or over = '"// &
+                      coordinate//" = 0.1:3:50' in the group &sweep of the scene")
         else if (size(scene%sweep%keep) == 0) then
             call fail(error, "keep what of each trajectory? '--keep period', a column, "// &
                       "'--keep ""max COLUMN""'; or keep = 'period' in the group &sweep of "// &

@@ -129,7 +129,7 @@ contains
             call result%range_of(i, found, least, largest)
             rows = rows//json_element(json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
                 json_pair("unit", trim(sweep%kept(i)%unit))// &
-                json_pair("found", to_text(found))// &
+                json_pair("found", found)// &
                 json_pair("least", least)//json_pair("largest", largest)))
         end do
         call put_line(json_object(json_pair("scene", trim(sweep%scene%name))// &

@@ -9,6 +9,7 @@ module lagrangia_wrong_words
     use lagrangia_option_words, only: option_advice
     use lagrangia_registry, only: accepts, command_t, commands
     use lagrangia_scene_keys, only: keys
+    use lagrangia_setting_words, only: setting_advice
     use lagrangia_shipped, only: named_scenes, named_sweeps, scene_name
     use lagrangia_text, only: lower, quoted
     use lagrangia_vocabulary, only: words_of
@@ -48,7 +49,7 @@ contains
         do i = 1, size(arguments)
             if (is_one_of(arguments(i)%text, taken)) cycle
             if (is_one_of(lower(arguments(i)%text), taken)) cycle  ! the command says it
-            call explain(command, arguments(i)%text, taken, error)
+            call explain(command, arguments(i)%text, arguments, taken, error)
             if (allocated(error)) return
         end do
         if (command%most < 0 .or. size(arguments) <= command%most) return
@@ -155,12 +156,13 @@ contains
         best = nearest_name(name, candidates)
     end function near
 
-    subroutine explain(command, word, taken, error)
+    subroutine explain(command, word, arguments, taken, error)
         !! Refuse a word that means something elsewhere; paths, and files that there are, pass.
         type(command_t), intent(in) :: command
         character(*), intent(in) :: word
-        type(word_t), intent(in) :: taken(:)
+        type(word_t), intent(in) :: arguments(:), taken(:)
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: advice
         type(facts_t) :: facts
         integer :: i
 
@@ -185,8 +187,10 @@ contains
             end if
             return
         end do
-        if (option_advice(command, word) /= "") then
-            call fail(error, quoted(word)//" is "//option_advice(command, word))
+        advice = setting_advice(command, word, arguments)
+        if (advice == "") advice = option_advice(command, word)
+        if (advice /= "") then
+            call fail(error, quoted(word)//" is "//advice)
         else if (command%name /= "show") then
             call explain_name(command, word, error)
         end if

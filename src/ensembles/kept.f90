@@ -45,7 +45,7 @@ module lagrangia_kept
     type :: kept_t
         !! One number of a trajectory.
         character(sweep_text_length) :: text = ""  !! as above
-        character(name_length) :: label = ""      !! one word: its column in the data file
+        character(sweep_text_length) :: label = ""  !! one word: its column in the data file
         character(16) :: unit = "1"
         integer :: kind = 0
         integer :: column = 0      !! of the columns that are evaluated
@@ -146,7 +146,8 @@ contains
                 call fail(error, "a sweep measures no error; 'lagrangia run SCENE' tells that "// &
                           "of one trajectory")
             else if (any(text == ["first", "max  ", "min  "])) then
-                call fail(error, "what is wanted of what? 'first theta = 0.5 rising', 'max COLUMN'")
+                call fail(error, "what is wanted of what? 'first "//trim(coordinates(1))// &
+                          " = 0.5 rising', 'max COLUMN'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
@@ -263,7 +264,7 @@ contains
     pure function one_word(text) result(word)
         !! `max_theta` for `max theta`, `first_theta=0.5_rising`.
         character(*), intent(in) :: text
-        character(name_length) :: word
+        character(sweep_text_length) :: word
         integer :: i, n
 
         word = ""

@@ -170,6 +170,7 @@ contains
         character(sweep_text_length), allocatable, intent(inout) :: events(:)
         type(error_t), allocatable, intent(out) :: error
         type(column_event_t) :: event
+        type(description_t) :: d
         logical :: only_columns
 
         associate (group => sweep%scene%sweep, kept => sweep%kept)
@@ -189,8 +190,10 @@ contains
                 call fail(error, "an attractor is told by stroboscopic points: strobe = "// &
                           "'2 pi/drive_frequency', or any time where nothing is driven", key="keep")
             else if (sweep%keeps_points .and. .not. only_columns) then
+                call sweep%system%describe(d)
                 call fail(error, "of the points of a stroboscope or a section only columns are "// &
-                          "kept, 'theta' or 'wrapped theta'", key="keep")
+                          "kept, '"//trim(d%coordinates(1)%name)//"' or 'wrapped "// &
+                          trim(d%coordinates(1)%name)//"'", key="keep")
             end if
             if (allocated(error) .or. .not. sweep%keeps_points) return
             sweep%points = group%points

@@ -22,7 +22,6 @@ module lagrangia_sweep_axis
     integer, parameter :: of_coordinate = 1, of_velocity = 2, of_parameter = 3
     integer(i8), parameter :: most_values = 10_i8**15  !! doubles between two ends
     integer(i8), parameter :: most_drawn = 10_i8**8    !! these are kept in memory
-    character(*), parameter :: example = "'theta = -pi:pi:400', 'm1 = 0.1:10:50:log'"
 
     type :: sweep_axis_t
         character(name_length) :: name = ""      !! as it was typed
@@ -71,10 +70,13 @@ contains
         integer(i8) :: count, i, most
         integer :: bounds(4), equals
         character(:), allocatable :: range, spacing, problem
+        type(description_t) :: d
 
         equals = index(text, "=")
         if (equals == 0) then
-            call fail(error, "an axis of a sweep looks like "//example//"; "//quoted(trim(text))// &
+            call system%describe(d)
+            call fail(error, "an axis of a sweep looks like "// &
+                      examples(d%coordinates(1)%name)//"; "//quoted(trim(text))// &
                       " has no '='")
             return
         end if
@@ -84,12 +86,12 @@ contains
         call cut(range, bounds)
         if (bounds(2) == 0) then
             call fail(error, "the axis "//trim(axis%name)//" needs FROM:TO:COUNT, as in "// &
-                      example)
+                      examples(axis%name))
             return
         end if
-        call read_end(range(:bounds(1) - 1), ends(1), error)
-        if (.not. allocated(error)) call read_end(range(bounds(1) + 1:bounds(2) - 1), ends(2), &
-                                                  error)
+        call read_end(axis%name, range(:bounds(1) - 1), ends(1), error)
+        if (.not. allocated(error)) call read_end(axis%name, range(bounds(1) + 1:bounds(2) - 1), &
+                                                  ends(2), error)
         if (allocated(error)) then
             error%message = "the axis "//trim(axis%name)//": "//error%message
             return
@@ -205,15 +207,23 @@ contains
         end do
     end subroutine cut
 
-    subroutine read_end(text, value, error)
-        !! The first or the last value of an axis.
-        character(*), intent(in) :: text
+    pure function examples(name) result(text)
+        !! How an axis is written.
+        character(*), intent(in) :: name
+        character(:), allocatable :: text
+
+        text = "'"//trim(name)//" = 0.1:3:50', '"//trim(name)//" = 0.1:10:50:log'"
+    end function examples
+
+    subroutine read_end(name, text, value, error)
+        !! The first or the last value of the axis `name`.
+        character(*), intent(in) :: name, text
         real(dp), intent(out) :: value
         type(error_t), allocatable, intent(out) :: error
 
         value = 0.0_dp
         if (text == "") then
-            call fail(error, "an end is missing; write "//example)
+            call fail(error, "an end is missing; write "//examples(name))
         else
             call read_constant(text, value, error)
         end if

@@ -5,11 +5,11 @@ module lagrangia_sweep_files
     use lagrangia_characters, only: printable
     use lagrangia_column_names, only: told_apart
     use lagrangia_data_files, only: new_table, scene_path, script_path
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
+    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t, sweep_text_length
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_grid, only: sweep_result_t
     use lagrangia_sweep_picture, only: sweep_script
@@ -63,7 +63,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(scene_line_length), allocatable :: lines(:)
         character(16), allocatable :: units(:)
-        character(name_length + 10), allocatable :: names(:)
+        character(sweep_text_length + 10), allocatable :: names(:)
         type(description_t) :: d
         integer :: i
 
@@ -89,7 +89,7 @@ contains
         !! Those of the axes and of what is kept. An axis is where a motion begins: `theta_0`, where
         !! `theta` is kept.
         type(sweep_t), intent(in) :: sweep
-        character(name_length + 10) :: names(size(sweep%axes) + size(sweep%kept))
+        character(sweep_text_length + 10) :: names(size(sweep%axes) + size(sweep%kept))
         integer :: i
 
         names = [character(len(names)) :: sweep%axes%name, sweep%kept%label]

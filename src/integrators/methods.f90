@@ -130,9 +130,10 @@ contains
         class(integrator_t), intent(inout) :: integrator  !! gets ready
         class(system_t), intent(in) :: system             !! that it shall step
         type(error_t), allocatable, intent(out) :: error  !! its refusal
+        class(dense_integrator_t), allocatable :: adaptive
         class(integrator_t), allocatable :: other
         type(error_t), allocatable :: refusal
-        character(name_length), allocatable :: names(:)
+        character(name_length), allocatable :: by_tolerance(:), names(:)
         integer :: i
 
         call integrator%prepare(system, error)
@@ -146,7 +147,19 @@ contains
             call other%prepare(system, refusal)
             if (.not. allocated(refusal)) names = [character(name_length) :: names, other%name]
         end do
+        allocate (by_tolerance(0))
+        i = 0
+        do
+            i = i + 1
+            call nth_adaptive(i, adaptive)
+            if (.not. allocated(adaptive)) exit
+            call adaptive%prepare(system, refusal)
+            if (.not. allocated(refusal)) by_tolerance = [character(name_length) :: &
+                by_tolerance, adaptive%name]
+        end do
         error%message = error%message//"; these methods work: "//join(names, ", ")
+        if (size(by_tolerance) > 0) error%message = error%message//", and with a tolerance "// &
+            join(by_tolerance, ", ")
     end subroutine prepare_integrator
 
     function method_names() result(names)

@@ -139,10 +139,11 @@ contains
         case ("_")
             problem = "has a kind suffix; write the number alone"
             if (verify(token(at + 1:), digits) == 0) problem = "holds '_'; write the digits alone"
-        case ("x", "X")
-            problem = "is not a decimal number; hexadecimal is not read here"
         case default
             problem = generic
+            if (index(lower(token(behind_sign(token, 1):)), "0x") == 1) then
+                problem = "is not a decimal number; hexadecimal is not read here"
+            end if
         end select
     end subroutine check_grammar
 

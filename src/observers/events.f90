@@ -95,7 +95,7 @@ contains
         allocate (words(len(text) + 1))  ! as many at most, and an empty one
         call split(text, words, count)
         if (count < 1) then
-            call fail(error, "an event needs a column, as in "//example())
+            call fail(error, "an event needs a column, as in "//example(system))
             return
         end if
         self%label = text
@@ -117,7 +117,7 @@ contains
                 level = level//" "//trim(words(i))
             end do
             if (level == "") then
-                call fail(error, "a number is needed behind '=', as in "//example())
+                call fail(error, "a number is needed behind '=', as in "//example(system))
                 return
             end if
             call read_constant(level(2:), self%level, error)
@@ -140,7 +140,7 @@ contains
             case ("stop"); self%terminal = .true.
             case default
                 call fail(error, quoted(trim(words(i)))//" is none of rising, falling, stop; "// &
-                          "an event looks like "//example())
+                          "an event looks like "//example(system))
                 return
             end select
         end do
@@ -162,11 +162,15 @@ contains
               index(text, "(") == 0
     end function is_word
 
-    pure function example() result(text)
-        !! What an event looks like.
+    pure function example(system) result(text)
+        !! What an event looks like, of its first coordinate.
+        class(system_t), intent(in) :: system
         character(:), allocatable :: text
+        type(description_t) :: d
 
-        text = "event = 'theta = 0.5 rising' or event = 'tension falling stop'"
+        call system%describe(d)
+        text = trim(d%coordinates(1)%name)
+        text = "event = '"//text//" = 0.5 rising' or event = '"//text//"_dot falling stop'"
     end function example
 
     pure subroutine split(text, words, count)

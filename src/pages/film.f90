@@ -56,7 +56,9 @@ contains
                 moving(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
                 rest(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i)) - moving(i)
             end do
-            call add_energies(moving, rest, system%conserves_energy(), film, channels)
+            ! An impact may take energy away.
+            call add_energies(moving, rest, system%conserves_energy() .and. system%contacts == 0, &
+                              film, channels)
         end if
         if (reference%count == n) then
             call place_all(figure, system, reference, n, other)

@@ -1625,7 +1625,7 @@ static const char *const files[][2] = {
     },
     {"data/sweeps/section.nml",
         "&scene\n"
-        "  title = 'Poincaré section of a double pendulum: twenty motions of one energy'\n"
+        "  title = 'Poincaré section of a double pendulum: motions of one energy'\n"
         "  system = 'double_pendulum'\n"
         "  method = 'gauss16'\n"
         "  tolerance = 1e-10, duration = 2000.0, samples = 100\n"

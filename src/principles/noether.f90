@@ -233,9 +233,8 @@ contains
         report%picture%file = "principle_noether"
         report%picture%title = "Cart-pendulum: what Noether's search finds stays; p_theta swings"
         report%picture%names = [character(32) :: "t", "p_x", "p_x t - M x_com", "h", "p_theta"]
-        report%picture%units = [character(16) :: "s", "SI units", "SI units", "SI units", &
-                                "SI units"]
-        report%picture%panels = [character(98) :: "t:p_x+p_x t - M x_com+h+p_theta"]
+        report%picture%units = [character(16) :: "s", "kg m/s", "kg m", "J", "kg m^2/s"]
+        report%picture%panels = [character(98) :: "t:p_x", "t:p_x t - M x_com", "t:h", "t:p_theta"]
         allocate (report%picture%values(5, samples))
         do k = 1, samples
             report%picture%values(:, k) = [(k - 1)*step, values(:, k)]

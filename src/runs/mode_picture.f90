@@ -9,7 +9,8 @@ module lagrangia_mode_picture
     use lagrangia_figure_edges, only: find_edges, has_edges
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_mode_script, only: is_mass, is_rod, is_way, mode_script, most_panels
+    use lagrangia_mode_script, only: is_mass, is_rod, is_way, mode_script, most_panels, &
+                                     part_of_modes
     use lagrangia_output_file, only: commit_both, output_file_t
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_small_oscillations, only: modes_t
@@ -66,7 +67,7 @@ contains
         type(text_table_t) :: table
         type(output_file_t) :: script
         type(picture_t) :: picture
-        character(200) :: header(3)
+        character(200) :: header(4)
         integer :: i
 
         call system%describe(d)
@@ -75,10 +76,12 @@ contains
         header(2) = "side: 0 at rest, 1 and -1 displaced; kind: 0 a mass, 1 a rod or "// &
                     "an edge, 2 the way of a mass"
         header(3) = "from (x, y, z) to (x + dx, y + dy, z + dz)"
+        header(4) = part_of_modes(modes)
         call table%file%open(mode_picture_path(stem), error)
         if (allocated(error)) return
-        call table%begin(header, ["mode", "side", "kind", "x   ", "y   ", "z   ", "dx  ", "dy  ", &
-                                  "dz  "], ["1", "1", "1", "m", "m", "m", "m", "m", "m"], error)
+        call table%begin(header(:merge(3, 4, header(4) == "")), &
+                         ["mode", "side", "kind", "x   ", "y   ", "z   ", "dx  ", "dy  ", "dz  "], &
+                         ["1", "1", "1", "m", "m", "m", "m", "m", "m"], error)
         if (allocated(error)) return
         do i = 1, picture%count
             call table%row(picture%rows(:, i))

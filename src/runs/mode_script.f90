@@ -10,7 +10,7 @@ module lagrangia_mode_script
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: mode_script
+    public :: mode_script, part_of_modes
     public :: is_mass, is_rod, is_way, most_panels
 
     integer, parameter :: is_mass = 0, is_rod = 1, is_way = 2  !! kinds of rows
@@ -79,9 +79,8 @@ contains
         function shown_modes() result(words)
             character(:), allocatable :: words
 
-            words = "small oscillations"
-            if (size(modes%omega2) > n) words = "the first "//to_text(n)//" of "// &
-                to_text(size(modes%omega2))//" modes"
+            words = part_of_modes(modes)
+            if (words == "") words = "small oscillations"
         end function shown_modes
 
         subroutine put_panel(which)
@@ -230,6 +229,16 @@ contains
         centre = 0.5_dp*(high(axes) + low(axes))
         half = 0.5_dp*(high(axes) - low(axes))
     end subroutine choose_axes
+
+    pure function part_of_modes(modes) result(text)
+        !! `the first 12 of 13 modes`, where a picture has no room for all; else nothing.
+        type(modes_t), intent(in) :: modes  !! of a system
+        character(:), allocatable :: text
+
+        text = ""
+        if (size(modes%omega2) > most_panels) text = "the first "//to_text(most_panels)//" of "// &
+            to_text(size(modes%omega2))//" modes"
+    end function part_of_modes
 
     pure function mode_title(modes, j) result(text)
         !! Its omega with four digits, or what it does instead.

@@ -9,7 +9,7 @@ module lagrangia_modes_files
                                  series_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_picture, only: mode_picture_path
-    use lagrangia_number_text, only: field_width
+    use lagrangia_number_text, only: field_width, rounded
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
@@ -24,6 +24,7 @@ module lagrangia_modes_files
     public :: claim_modes, prepare_modes, size_of_modes, write_mode
 
     integer, parameter :: samples = 200
+    integer, parameter :: digits = 6  !! of omega^2 in a title
 
 contains
 
@@ -92,13 +93,13 @@ contains
         type(panel_t), allocatable :: panels(:)
         character(name_length) :: names(1 + system%ndof)
         character(16) :: units(1 + system%ndof)
-        character(120) :: header(1)
+        character(240) :: header(1)
         type(value_range_t) :: ranges(1 + system%ndof)
         type(series_t), allocatable :: series(:)
         real(dp) :: row(1 + system%ndof)
         real(dp) :: shape(system%ndof)
         real(dp) :: t, rate, factor, duration
-        character(:), allocatable :: path
+        character(:), allocatable :: heading, path
         logical :: resting
         integer :: k
 
@@ -108,8 +109,8 @@ contains
         units(1) = "s"
         units(2:) = d%coordinates%unit
         path = mode_path(stem, j)
-        header(1) = title//", mode "//to_text(j)//": omega^2 = "// &
-                    to_text(modes%omega2(j) + 0.0_dp)  ! no sign of a zero
+        heading = title//", mode "//to_text(j)//": omega^2 = "
+        header(1) = heading//to_text(modes%omega2(j) + 0.0_dp)//" s^-2"  ! no sign of a zero
         call table%file%open(path, error)
         if (allocated(error)) return
         call table%begin(header, names, units, error)
@@ -144,7 +145,9 @@ contains
         allocate (series(1))
         call new_series(series(1), path(index(path, "/", back=.true.) + 1:), "", names, units, &
                         ranges)
-        call script%write(gnuplot_script(series(1)%file, series, trim(header(1)), "", panels))
+        call script%write(gnuplot_script(series(1)%file, series, heading// &
+                                         rounded(modes%omega2(j) + 0.0_dp, digits)//" s^-2", "", &
+                                         panels))
         call commit_both(table%file, script, error)
     end subroutine write_mode
 end module lagrangia_modes_files

@@ -18,8 +18,8 @@ module lagrangia_overlay
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: add_to_overlay, common_panels, compare_methods, compare_starts, overlay_path, &
-              run_name, write_overlay
+    public :: add_to_overlay, common_panels, compare_methods, compare_starts, most_coordinates, &
+              overlay_path, run_name, write_overlay
 
     integer, parameter :: most_coordinates = 3  !! with a panel each
     integer, parameter :: most_panels = 6
@@ -112,11 +112,12 @@ contains
         if (i > 0) names = [character(name_length) :: names, all(i)]
     end subroutine add_drift
 
-    subroutine compare_starts(scene, system, word)
+    subroutine compare_starts(scene, system, start, word)
         !! Make `scene`, which has another start, one of a comparison: with columns for its
-        !! coordinates and their velocities, unjudged.
+        !! coordinates and their velocities, unjudged; its title says the start.
         type(scene_t), intent(inout) :: scene  !! with its start
         class(system_t), intent(in) :: system  !! with the scene's parameters
+        character(*), intent(in) :: start      !! `Q1,Q2` or `Q1,Q2:V1,V2`
         character(*), intent(in) :: word       !! in the name of its file
         character(name_length), allocatable :: names(:)
         type(description_t) :: d
@@ -130,6 +131,11 @@ contains
                      trim(d%coordinates(i)%name)//"_dot"]
         end do
         scene%output = run_name(trim(scene%output), word)
+        scene%title = trim(scene%system)//" from q = "//start
+        i = index(start, ":")
+        if (i > 0) scene%title = trim(scene%system)//" from q = "//start(:i - 1)//", v = "// &
+                                 start(i + 1:)
+        if (allocated(scene%changes)) scene%title = trim(scene%title)//" ("//scene%changes//")"
         call unjudged(scene, names)
         deallocate (scene%expectations)
         allocate (scene%expectations(0))
@@ -164,17 +170,20 @@ contains
                         record%ranges, name)
     end subroutine add_to_overlay
 
-    subroutine common_panels(series, panels, over, error)
+    subroutine common_panels(series, panels, over, left_out, error)
         !! One panel a column of the first file that another one has, too, drifts and errors last;
         !! `over` `starts`, each velocity over its coordinate.
         type(series_t), intent(in) :: series(:)  !! data files
         type(panel_t), allocatable, intent(out) :: panels(:)  !! of the first file
         character(*), intent(in) :: over         !! `time` or `starts`
+        character(:), allocatable, intent(out) :: left_out
+        !! names of common columns that the picture has no room for, commas between them
         type(error_t), allocatable, intent(out) :: error  !! the files have only the time in common
         character(140), allocatable :: specs(:)
         logical :: small
         integer :: i, k, turn
 
+        left_out = ""
         allocate (specs(0))
         associate (names => series(1)%names)
             do turn = 1, 2
@@ -190,8 +199,12 @@ contains
                         if (any(series(k)%names == names(i) .and. &
                                 series(k)%units == series(1)%units(i))) exit
                     end do
-                    if (k <= size(series) .and. size(specs) < most_panels) then
+                    if (k > size(series)) cycle
+                    if (size(specs) < most_panels) then
                         specs = [character(140) :: specs, names(i)]
+                    else
+                        if (left_out /= "") left_out = left_out//", "
+                        left_out = left_out//trim(names(i))
                     end if
                 end do
             end do

@@ -182,7 +182,15 @@ contains
         how = curves
         if (present(style)) how = style
         call lay_out(series, panels, merge(82.0_dp, 50.0_dp, remark /= ""), frames, width, height)
-        call begin_script(script, file, width, height, 30*size(panels))
+        text = series(1)%file
+        do i = 2, size(series)
+            text = text//", "//series(i)%file
+        end do
+        if (size(series) > 1) then
+            call begin_script(script, file, width, height, 30*size(panels), drawn=text)
+        else
+            call begin_script(script, text, width, height, 30*size(panels))
+        end if
         call script%add("data = folder."//gnuplot_string(series(1)%file))
         do i = 2, size(series)
             call script%add(variable(i)//" = folder."//gnuplot_string(series(i)%file))

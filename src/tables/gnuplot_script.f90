@@ -15,7 +15,7 @@ module lagrangia_gnuplot_script
 
 contains
 
-    pure subroutine begin_script(script, file, width, height, rows)
+    pure subroutine begin_script(script, file, width, height, rows, drawn)
         !! The first lines of the script for `file`, a bare name beside it: `folder` is where it is,
         !! `kind` the terminal, and the picture is `NAME.png`, .svg or .pdf; with two arguments
         !! (`gnuplot -c NAME.gp KIND PICTURE`) it is of the kind, and has the name, that they say.
@@ -25,13 +25,18 @@ contains
         character(*), intent(in) :: file  !! the data file's name
         integer, intent(in) :: width, height  !! pixels
         integer, intent(in) :: rows           !! lines of text, where there are no pixels
+        character(*), intent(in), optional :: drawn  !! several data files, where there is no `file`
         character(:), allocatable :: pixels
         integer :: dot
 
         dot = index(file, ".", back=.true.)
         pixels = to_text(width)//","//to_text(height)
         script%text = ""
-        call script%add("# Draws "//printable(file)//" as it lies beside this script.")
+        if (present(drawn)) then
+            call script%add("# Draws "//printable(drawn)//" as they lie beside this script.")
+        else
+            call script%add("# Draws "//printable(file)//" as it lies beside this script.")
+        end if
         call script%add("set encoding iso_8859_1  # a folder's name is taken apart by bytes")
         call script%add("folder = './'")
         call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &

@@ -1,11 +1,12 @@
 module lagrangia_text_table
     !! The data file as text: a `#` header, then one row a sample; for gnuplot and numpy.loadtxt.
     use lagrangia_characters, only: printable
+    use lagrangia_column_words, only: column_word, unit_word
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: replaced, shortened
+    use lagrangia_text, only: shortened
     implicit none (type, external)
     private
     public :: text_table_t
@@ -25,7 +26,7 @@ contains
 
     subroutine begin(self, header, names, units, error)
         !! Header lines behind `# `; the last one names the columns with their units, a word each:
-        !! `p_x[kg*m/s]`, since a blank in a unit is a product.
+        !! `p_x[kg*m/s]`, `flat_throw[m]`.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
         type(error_t), allocatable, intent(out) :: error
@@ -39,8 +40,7 @@ contains
         self%counts_at = len(text)
         text = text//"# "//repeat(" ", counts_width)//new_line("a")//"#"
         do i = 1, size(names)
-            text = text//" "//replaced(printable(trim(names(i))//"["//trim(units(i))//"]"), &
-                                       " ", "*")
+            text = text//" "//column_word(names(i))//"["//unit_word(units(i))//"]"
         end do
         call self%file%write(text//new_line("a"))
     end subroutine begin
