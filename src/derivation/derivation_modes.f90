@@ -15,7 +15,7 @@ module lagrangia_derivation_modes
                                     operator(+), operator(-), operator(*), operator(**)
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_formula_parser, only: parse_equation, parse_formula
-    use lagrangia_kinds, only: i8
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: is_nonzero
     use lagrangia_page_layout, only: lay_out, lay_out_factors, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &

@@ -64,6 +64,7 @@ contains
         if (.not. (expression%depends_on(samples%frequency) .or. &
                    expression%depends_on(samples%frequency + 1))) then
             if (.not. speaks_of_place(expression, samples)) return
+            if (all(is_zero(samples%equilibrium))) return  ! of 0 nobody writes a formula
             call explain_slip(expression, first, samples, samples%values, library, other)
             if (explanation%is_surplus) explanation%width = huge(mode)  ! rather than `is not 0`
             if (.not. other%is_surplus) call take_narrower(0)
@@ -77,7 +78,8 @@ contains
             call explain_slip(expression, first, samples, there, library, other)
             call take_narrower(k)
         end do
-        if (samples%ndof == 2) then  ! which of two is the slower one may depend on the parameters
+        if (samples%ndof == 2 .and. all(is_nonzero(samples%omega2(:, :2)))) then
+            ! which of two is the slower one may depend on the parameters
             do k = 2*samples%ndof + 1, 2*samples%ndof + samples%ndof**draws - 2
                 call put_mode(samples, k, there)
                 call explain_slip(expression, first, samples, there, library, other)

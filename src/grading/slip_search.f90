@@ -11,7 +11,7 @@ module lagrangia_slip_search
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_sample_names, only: role_acceleration, role_frequency, role_known, &
-                                      role_parameter, role_velocity, samples_t
+                                      role_parameter, role_velocity, samples_t, states
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
                                          change_exponent, change_factor, change_function, &
                                          change_multiplied, change_number, change_sign, &
@@ -82,9 +82,12 @@ contains
         type(library_t), intent(in) :: library(:)           !! right terms
         type(explanation_t), intent(out) :: explanation     !! empty if there is none
         character(:), allocatable :: remark
-        logical :: could_be_trivial, of_period(expression%count)
+        real(dp) :: results(size(values, 1), expression%count)
+        logical :: could_be_trivial, known(size(values, 1)), of_period(expression%count)
         integer :: i
 
+        call evaluate_nodes(expression, values, results)
+        known = ieee_is_finite(results(:, expression%count))
         of_period = is_of_period(expression, samples%frequency)
         could_be_trivial = .true.  ! sides that need no motion to be compared, or omega = 2 pi/T
         do i = 1, size(samples%role)
@@ -125,9 +128,21 @@ contains
             call holds(expression, values(:1, :), mends, judged, change)
             if (.not. mends .and. judged) return
             call holds(expression, values, mends, judged, change)
+            if (mends) mends = .not. loses_values(change)
             if (.not. mends .or. could_be_trivial) return
             mends = .not. is_trivial(expression, samples, change)
         end function mends
+
+        logical function loses_values(change)
+            !! Is it no number any more at some of the samples, or one with the same parameters only?
+            type(change_t), intent(in) :: change
+            real(dp) :: results(size(values, 1), expression%count)
+
+            call evaluate_nodes(expression, values, results, change)
+            associate (finite => ieee_is_finite(results(:, expression%count)))
+                loses_values = any(known .and. .not. finite) .or. count(finite) <= states
+            end associate
+        end function loses_values
 
         subroutine try_signs(text)
             character(:), allocatable, intent(out) :: text

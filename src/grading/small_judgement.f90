@@ -5,7 +5,7 @@ module lagrangia_small_judgement
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
-    use lagrangia_number_class, only: is_zero
+    use lagrangia_number_class, only: is_nonzero, is_zero
     use lagrangia_order_of_approximation, only: is_linear, is_negligible, order_that_fails
     use lagrangia_sample_names, only: role_acceleration, role_known, role_parameter, &
                                       role_time, samples_t, states
@@ -92,7 +92,7 @@ contains
             if (.not. explain) return
             call explain_it(judgement%explanation)
             call put_example(left, right, samples, shown, judgement%example)
-            if (about_other .and. .not. only_other) then
+            if (about_other .and. any(is_nonzero(samples%equilibrium))) then
                 call compare(.false., .false.)
                 if (judged) call explain_it(of_first)
                 if (judged .and. .not. of_first%is_empty() .and. &

@@ -198,8 +198,9 @@ contains
             one = needed*letter
             if (is_constant(one) .and. is_likely(one(1), is_number)) then
                 remark = text//" has the factor "//name//" too many"
-                if (abs(one(1) - 1.0_dp) > equal .or. .not. is_there) &
+                if (abs(one(1) - 1.0_dp) > equal .or. .not. is_there) then
                     remark = text//" must be divided by "//times(1.0_dp/one(1))//name
+                end if
             end if
         end subroutine try_letter
 
