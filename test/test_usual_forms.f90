@@ -249,6 +249,7 @@ contains
                   "'omega^2/(4 pi^2)' in '4 pi^2 l (4 pi^2/omega^2)'")
         call says("pendulum", "g = 4 pi l/T^2", is_wrong, &
                   "'4 pi l/(4 pi^2/omega^2)' must be counted pi times")
+        call says("pendulum", "omega T = pi", is_wrong, "the left side is 2 pi")
         call says("pendulum", "omega = 2 pi T", is_wrong, &
                   "'2 pi/omega' must be 'omega/(2 pi)' in '2 pi (2 pi/omega)'")
         call says("pendulum", "omega = 0", is_wrong, "no single change of a sign, letter, dot, "// &

@@ -9,6 +9,7 @@ module lagrangia_rounded_numbers
     use lagrangia_number_class, only: all_finite, is_nonzero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
+    use lagrangia_simple_numbers, only: is_simple, number_text
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_verdict, only: brief, telling_digits
     implicit none (type, external)
@@ -263,6 +264,7 @@ contains
         type(samples_t), intent(in) :: samples                 !! on the motion
         type(explanation_t), intent(inout) :: explanation      !! changes where it is so
         real(dp), allocatable :: values(:, :), results(:, :), given(:)
+        real(dp), parameter :: pi = acos(-1.0_dp)
         character(:), allocatable :: text
         integer :: mode
 
@@ -280,7 +282,11 @@ contains
                 if (.not. all_finite(r)) cycle
                 if (maxval(r) - minval(r) > 1e-9_dp*maxval(abs(r))) cycle
                 if (text /= "") text = text//" or "
-                text = text//brief(r(1), telling_digits(r(1), given(1)))
+                if (is_simple(r(1)/pi)) then
+                    text = text//number_text(r(1))
+                else
+                    text = text//brief(r(1), telling_digits(r(1), given(1)))
+                end if
             end associate
         end do
         if (text == "") return

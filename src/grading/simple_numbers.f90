@@ -78,5 +78,6 @@ contains
             if (abs(value) < 0.1_dp) text = rounded(value, 3)
         end if
         if (index(text, "1 pi") == 1) text = text(3:)
+        if (index(text, "-1 pi") == 1) text = "-"//text(4:)
     end function number_text
 end module lagrangia_simple_numbers

@@ -134,7 +134,7 @@ contains
         end function mends
 
         logical function loses_values(change)
-            !! Is it no number any more at some of the samples, or one with the same parameters only?
+            !! Is it no number any more at some samples, or one with the same parameters only?
             type(change_t), intent(in) :: change
             real(dp) :: results(size(values, 1), expression%count)
 
