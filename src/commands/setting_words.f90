@@ -1,7 +1,7 @@
 module lagrangia_setting_words
     !! A setting without `--set` before it, `theta=0.5` or `l=2`: what to write instead.
     use lagrangia_command_line, only: word_t
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_registry, only: accepts, command_t
     use lagrangia_scene, only: scene_t
@@ -86,14 +86,17 @@ contains
         character(*), intent(in) :: key, value  !! in lower case; `=2`
         type(description_t), intent(in) :: d
         character(:), allocatable :: text
+        character(name_length), allocatable :: coordinates(:), parameters(:)
         integer :: i
 
+        coordinates = d%coordinates%name
+        parameters = d%parameters%name
         text = ""
-        if (place_of(key(:index(key//"(", "(") - 1), d%parameters%name) > 0) then
+        if (place_of(key(:index(key//"(", "(") - 1), parameters) > 0) then
             text = "a setting; write "//option(trim(d%name)//"%"//key//value)
             return
         end if
-        i = place_of(key, d%coordinates%name)
+        i = place_of(key, coordinates)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//option("scene%"//start_of("q", i, d)//value)
         else if (i > 0 .and. accepts(command, "at") .and. size(d%coordinates) == 1) then
@@ -103,14 +106,14 @@ contains
         end if
         if (text /= "") return
         i = 0
-        if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), d%coordinates%name)
+        if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), coordinates)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//option("scene%"//start_of("v", i, d)//value)
         else if (size(d%parameters) == 0) then
             text = "no setting of "//trim(d%name)//", which has no parameters"
         else
             text = "no setting of "//trim(d%name)//", whose parameters are "// &
-                   join(d%parameters%name, ", ")//"; write '--set "//trim(d%name)//"%"// &
+                   join(parameters, ", ")//"; write '--set "//trim(d%name)//"%"// &
                    trim(d%parameters(1)%name)//"=...'"
         end if
     end function advice_of

@@ -249,6 +249,7 @@ contains
             type(description_t) :: d
             real(dp), allocatable :: slopes(:, :), ways(:, :)
             logical :: allowed(size(q))
+            integer, allocatable :: columns(:)  ! of the ways that are possible
             integer :: i, k, n, possible
 
             call system%describe(d)
@@ -269,8 +270,9 @@ contains
             end do
             allowed = maxval(abs(matmul(slopes, ways)), 1) <= rounding
             call matrix_rank(slopes, k, error)
-            if (.not. allocated(error)) call matrix_rank(ways(:, pack([(i, i=1, size(q))], &
-                                                         allowed)), possible, error)
+            columns = pack([(i, i=1, size(q))], allowed)
+            ways = ways(:, columns)
+            if (.not. allocated(error)) call matrix_rank(ways, possible, error)
             if (allocated(error)) return
             call report%equal(name//": "//to_text(n)//" - "//to_text(k), real(n - k, dp), &
                               real(possible, dp), 0.0_dp)
