@@ -247,7 +247,7 @@ contains
             type(hyperdual_t), allocatable :: r(:, :), x(:), f(:)
             type(hyperdual_t) :: moved(size(q))
             type(description_t) :: d
-            real(dp), allocatable :: slopes(:, :), ways(:, :)
+            real(dp), allocatable :: places(:), slopes(:, :), ways(:, :)
             logical :: allowed(size(q))
             integer, allocatable :: columns(:)  ! of the ways that are possible
             integer :: i, k, n, possible
@@ -262,8 +262,9 @@ contains
                 call system%positions(hyperdual(0.4_dp), moved, r)
                 ways(:, i) = reshape(r%d1, [n])
             end do
+            places = reshape(r%re, [n])
             do i = 1, n
-                x = hyperdual(reshape(r%re, [n]))
+                x = hyperdual(places)
                 x(i)%d1 = 1.0_dp
                 call stated(name, x, f)
                 slopes(:, i) = f%d1
