@@ -9,7 +9,8 @@ module lagrangia_differentials
     implicit none (type, external)
     private
     public :: quotient_t
-    public :: coordinates, find_quotient, is_known, is_slope_of, place_of, slope_name
+    public :: coordinates, find_quotient, is_known, is_slope_of, name_of_slope, place_of, &
+              slope_name
 
     type :: quotient_t
         !! Of differentials, as tokens.
@@ -266,7 +267,22 @@ contains
         type(quotient_t), intent(in) :: quotient  !! of one order, perhaps
         logical :: yes
 
-        yes = quotient%order == 1 .and. quotient%by(1) /= "t"
-        if (yes) yes = slope_name(symbols, quotient%operand, trim(quotient%by(1))) /= ""
+        yes = name_of_slope(symbols, quotient) /= ""
     end function is_slope_of
+
+    pure function name_of_slope(symbols, quotient) result(name)
+        !! `dV_dtheta` of `dV/dtheta`, `ddV_eff_dr_dr` of `d^2V_eff/dr^2`, where it is a name.
+        type(symbols_t), intent(in) :: symbols    !! of a sheet, with rates
+        type(quotient_t), intent(in) :: quotient  !! of any order
+        character(:), allocatable :: name
+        integer :: i
+
+        name = ""
+        if (quotient%order == 0) return
+        name = quotient%operand
+        do i = 1, quotient%order
+            if (quotient%by(i) == "t") name = ""
+            if (name /= "") name = slope_name(symbols, name, trim(quotient%by(i)))
+        end do
+    end function name_of_slope
 end module lagrangia_differentials

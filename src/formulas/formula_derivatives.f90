@@ -3,7 +3,7 @@ submodule (lagrangia_formula_parser) lagrangia_formula_derivatives
     !! `d/dtheta V`, `d^2V/dtheta^2`, `theta''`, `V'(theta)`.
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_differentials, only: coordinates, find_quotient, is_known, is_slope_of, &
-                                       place_of, quotient_t, slope_name
+                                       name_of_slope, place_of, quotient_t, slope_name
     use lagrangia_expression, only: kind_symbol, operator(*), operator(+), operator(/), symbol
     use lagrangia_formula_reader, only: is_time_in_brackets, largest
     use lagrangia_formula_text, only: typed_name
@@ -140,8 +140,7 @@ contains
 
         if (.not. is_slope_of(symbols, quotient)) return
         if (symbols%along_motion .and. quotient%operand == "T") return  ! the work-energy theorem
-        call add_named(reader, symbols, slope_name(symbols, quotient%operand, &
-                                                   trim(quotient%by(1))), quotient%behind, node)
+        call add_named(reader, symbols, name_of_slope(symbols, quotient), quotient%behind, node)
     end subroutine add_slope
 
     pure subroutine differentiate_by(reader, symbols, first, by, node, error)

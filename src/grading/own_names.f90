@@ -1,20 +1,23 @@
 module lagrangia_own_names
     !! Names that a student gives: what they stand for, and whether that is what everybody means by
     !! them.
+    use lagrangia_canonical_form, only: simplified
     use lagrangia_declared_constants, only: with_constants
-    use lagrangia_derivative, only: derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judged_equality, only: judge_forms, put_unreadable
     use lagrangia_rounded_numbers, only: put_exact_number
-    use lagrangia_sample_names, only: role_coordinate, role_parameter, samples_t
+    use lagrangia_sample_names, only: role_coordinate, role_parameter, role_velocity, &
+                                      samples_t
+    use lagrangia_slope_at_momentum, only: slope_at_momentum
     use lagrangia_statement_forms, only: define_by_period, define_rates, find_frequency, &
                                          has_velocities, means_frequency
     use lagrangia_term_search, only: library_t
     use lagrangia_usual_meanings, only: energy_name
     use lagrangia_usual_names, only: find_usual
     use lagrangia_verdict, only: as_new_name, is_definition, is_right, is_wrong, judgement_t
+    use lagrangia_written_out, only: energy_formulas
     implicit none (type, external)
     private
     public :: define
@@ -101,23 +104,33 @@ contains
         end do
     end subroutine find_energy
 
-    pure subroutine define_slopes(name, meaning, samples)
+    subroutine define_slopes(name, meaning, samples)
         !! `dV_eff/dr`, in which the momenta are constants.
         character(*), intent(in) :: name
         type(expression_t), intent(in) :: meaning
         type(samples_t), intent(inout) :: samples
         type(error_t), allocatable :: error
+        type(expression_t), allocatable :: formulas(:)
+        type(expression_t) :: slope
         integer :: k
 
         do k = 1, size(samples%role)
             if (.not. meaning%depends_on(k)) cycle
-            if (samples%symbols%names(k)(:2) == "p_") cycle
+            if (samples%role(k) == role_velocity .and. samples%ndof == 2) cycle
+            if (any(samples%symbols%names(k)(:2) == ["p_", "L_"])) cycle
             if (samples%role(k) == role_parameter .and. samples%rate(k) == 0) cycle
             if (samples%role(k) /= role_coordinate) return
         end do
+        call energy_formulas(samples, formulas)
         do k = 2, 1 + samples%ndof
-            call samples%symbols%define("d"//name//"_d"//trim(samples%symbols%names(k)), &
-                                        derivative(meaning, k), error)
+            associate (by => "_d"//trim(samples%symbols%names(k)))
+                slope = simplified(slope_at_momentum(meaning, k, formulas(1), samples), &
+                                   samples%symbols)
+                call samples%symbols%define("d"//name//by, slope, error)
+                slope = simplified(slope_at_momentum(slope, k, formulas(1), samples), &
+                                   samples%symbols)
+                call samples%symbols%define("dd"//name//by//by, slope, error)
+            end associate
         end do
     end subroutine define_slopes
 

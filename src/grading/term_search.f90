@@ -4,7 +4,7 @@ module lagrangia_term_search
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_canonical_form, only: simplified
     use lagrangia_expression, only: expression_t, kind_difference, kind_function, kind_symbol, &
-                                    operator(*), operator(-)
+                                    operator(*), operator(-), operator(/), symbol
     use lagrangia_formula_text, only: formula_text, typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
@@ -23,6 +23,7 @@ module lagrangia_term_search
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
     real(dp), parameter :: small_velocity = 1e-4_dp  !! of which only the first order counts
     integer, parameter :: enough = 4        !! samples at which all is finite
+    integer, parameter :: most_divisors = 4  !! coordinates by which an equation may be divided
 
     type :: library_t
         !! A right term, of an equation that the page has.
@@ -305,37 +306,44 @@ contains
         character(:), allocatable :: on_right
         real(dp), allocatable :: results(:, :), term(:, :), needed(:)
         type(letter_t), allocatable :: letters(:)
-        type(expression_t) :: product
+        type(expression_t) :: product, right
         logical :: found
-        integer :: k
+        integer :: j, k
 
         remark = ""
         is_vague = .false.
         call prepare(expression, samples, values, library, results, letters)
-        do k = 1, size(library)
-            if (allocated(term)) deallocate (term)
-            allocate (term(size(values, 1), library(k)%term%count))
-            call evaluate_nodes(library(k)%term, values, term)
-            needed = -results(:, expression%count)/term(:, library(k)%term%count)
-            if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
-            if (is_constant(needed) .and. is_simple(needed(1))) then
-                lacks = times(needed(1))//formula_text(library(k)%term, samples%symbols)
-                on_right = times(-needed(1))//formula_text(library(k)%term, samples%symbols)
-                exit
-            end if
-            if (remark == "" .and. .not. is_constant(needed) .and. &
-                .not. is_steady(term(:, library(k)%term%count))) then
-                is_vague = .true.
-                if (.not. is_there()) remark = "a term with "// &
-                    formula_text(library(k)%term, samples%symbols)//" is missing"
-            end if
-            call find_product(needed(1::states), letters, product, found)
-            if (.not. found) cycle
-            product = simplified(product*library(k)%term, samples%symbols)
-            lacks = formula_text(product, samples%symbols)
-            on_right = formula_text(simplified(-product, samples%symbols), samples%symbols)
-            exit
-        end do
+        search: do j = 0, min(samples%ndof, most_divisors)
+            do k = 1, size(library)
+                right = library(k)%term
+                if (j > 0) then  ! an equation may have been divided by r
+                    if (.not. right%depends_on(1 + j)) cycle
+                    right = simplified(right/symbol(1 + j), samples%symbols)
+                end if
+                if (allocated(term)) deallocate (term)
+                allocate (term(size(values, 1), right%count))
+                call evaluate_nodes(right, values, term)
+                needed = -results(:, expression%count)/term(:, right%count)
+                if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
+                if (is_constant(needed) .and. is_simple(needed(1))) then
+                    lacks = times(needed(1))//formula_text(right, samples%symbols)
+                    on_right = times(-needed(1))//formula_text(right, samples%symbols)
+                    exit search
+                end if
+                if (remark == "" .and. j == 0 .and. .not. is_constant(needed) .and. &
+                    .not. is_steady(term(:, right%count))) then
+                    is_vague = .true.
+                    if (.not. is_there()) remark = "a term with "// &
+                        formula_text(right, samples%symbols)//" is missing"
+                end if
+                call find_product(needed(1::states), letters, product, found)
+                if (.not. found) cycle
+                product = simplified(product*right, samples%symbols)
+                lacks = formula_text(product, samples%symbols)
+                on_right = formula_text(simplified(-product, samples%symbols), samples%symbols)
+                exit search
+            end do
+        end do search
         is_vague = is_vague .and. .not. allocated(lacks)
         if (allocated(lacks)) remark = missing(expression, lacks, on_right)
     contains
@@ -346,7 +354,7 @@ contains
             integer :: i
 
             call summands(expression, nodes, signs)
-            is_there = any([(is_steady(results(:, nodes(i))/term(:, library(k)%term%count)), &
+            is_there = any([(is_steady(results(:, nodes(i))/term(:, right%count)), &
                              i=1, size(nodes))])
         end function is_there
     end subroutine try_missing_terms

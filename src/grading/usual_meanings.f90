@@ -12,6 +12,7 @@ module lagrangia_usual_meanings
     use lagrangia_sample_names, only: axes, samples_t, states, usual_t
     use lagrangia_sampled_formula, only: summands
     use lagrangia_slip_search, only: holds
+    use lagrangia_slope_at_momentum, only: slope_at_momentum
     use lagrangia_substitution, only: substituted
     use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_written_out, only: energy_formulas
@@ -249,6 +250,12 @@ contains
         associate (name => samples%symbols%names(velocity - samples%ndof))
             call put(all, n, samples, "dV_eff_d"//trim(name), "", slope, always=.true.)
             call put(all, n, samples, "dU_eff_d"//trim(name), "", slope, always=.true.)
+            slope = simplified(slope_at_momentum(slope, velocity - samples%ndof, formulas(1), &
+                                                 samples), samples%symbols)
+            call put(all, n, samples, "ddV_eff_d"//trim(name)//"_d"//trim(name), "", slope, &
+                     always=.true.)
+            call put(all, n, samples, "ddU_eff_d"//trim(name)//"_d"//trim(name), "", slope, &
+                     always=.true.)
         end associate
     end subroutine collect_effective
 

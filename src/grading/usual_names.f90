@@ -50,7 +50,7 @@ contains
             if (.not. is_insisted(all(i)%name)) then
                 if (all(i)%only_compared) cycle
                 if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
-                if (is_effective(all(i)) .and. any(given == all(i)%name(2:6))) cycle
+                if (is_effective(all(i)) .and. any(given == potential_of(all(i)))) cycle
             end if
             if (is_declared(all(i)%name)) cycle
             if (is_read_otherwise(all(i))) cycle
@@ -120,7 +120,7 @@ contains
         integer :: i
 
         if (is_effective(usual)) then
-            yes = any(said == usual%name(2:6))
+            yes = any(said == potential_of(usual))
         else if (any(usual%name(:4) == ["dH_d", "dU_d"])) then
             yes = any(said == usual%name(2:2))
         else if (usual%always) then
@@ -131,11 +131,21 @@ contains
     end function is_said
 
     pure logical function is_effective(usual)
-        !! Is it the slope of an effective potential, `dV_eff_dr`?
+        !! Is it the slope of an effective potential, `dV_eff_dr`, or the slope of that?
         type(usual_t), intent(in) :: usual
 
-        is_effective = any(usual%name(:7) == ["dV_eff_", "dU_eff_"])
+        is_effective = usual%name(1:1) == "d" .and. any(potential_of(usual) == ["V_eff", "U_eff"])
     end function is_effective
+
+    pure function potential_of(usual) result(name)
+        !! `V_eff` of `dV_eff_dr` and of `ddV_eff_dr_dr`.
+        type(usual_t), intent(in) :: usual
+        character(5) :: name
+        integer :: first
+
+        first = merge(3, 2, usual%name(:2) == "dd")
+        name = usual%name(first:first + 4)
+    end function potential_of
 
     subroutine find_usual(name, meaning, text, samples, known, agrees, label)
         !! Whether a definition is what its name mostly stands for.

@@ -312,9 +312,9 @@ contains
             c = (1.0_dp + m2/m1)*g/l2
             if (orientation(1)*orientation(2) > 0.0_dp) then
                 ! (a + c)^2 - 4 a b = (a - c)^2 + 4 a (c - b), and c - b = (m2/m1) g/l2
-                w2(2) = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a*(m2/m1)*b)))
+                w2(2) = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a)*sqrt((m2/m1)*b)))
             else
-                w2(2) = 0.5_dp*(abs(a - c) + hypot(a - c, 2.0_dp*sqrt(a*b)))
+                w2(2) = 0.5_dp*(abs(a - c) + hypot(a - c, 2.0_dp*sqrt(a)*sqrt(b)))
             end if
             w2(1) = orientation(1)*orientation(2)*b*(a/max(w2(2), tiny(a)))
             analytic%omega2 = [minval(w2), maxval(w2)]
