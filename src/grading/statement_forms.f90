@@ -172,6 +172,7 @@ contains
         at = 1
         if (name(:1) == "d") at = 1 + verify(name(2:), "^2 ")
         yes = scan(name(at:at), energies) == 1 .and. scan(trim(name), "+-*=") == 0
+        if (yes .and. name(at + 1:min(at + 4, len(name))) == "_eff") name(at + 1:at + 4) = " "
         if (yes .and. at > 1) yes = index(adjustl(name(at + 1:)), "/d") == 1
         if (yes .and. at == 1) yes = name(2:2) == "'"
     end function is_slope
