@@ -39,6 +39,8 @@ contains
 
         suite = TestSuite("auto")
         call suite%addTest(TestMethod("closed_forms_take_no_steps", closed_forms_take_no_steps))
+        call suite%addTest(TestMethod("steps_that_would_not_end_are_not_taken", &
+                                      steps_that_would_not_end_are_not_taken))
         call suite%addTest(TestMethod("a_closed_form_is_not_its_own_judge", &
                                       a_closed_form_is_not_its_own_judge))
         call suite%addTest(TestMethod("steps_where_no_closed_form_is", &
@@ -109,6 +111,25 @@ contains
         call assertGreaterThan(index(outcome_json(outcome), '"choice": "auto took exact: '), 0, &
                                message="json")
     end subroutine check_exact
+
+    subroutine steps_that_would_not_end_are_not_taken()
+        !! A friction of 1e8 kg/s wants billions of steps: then the error is not known, and the
+        !! closed form is there all the same. One that is expected does not hold.
+        character(*), parameter :: stiff = "&scene system = 'oscillator', method = 'auto', "// &
+            "duration = 30, dt = 0.02, q = 1, v = 0.5, columns = 't', 'x', 'error'"
+        character(*), parameter :: values = " / &oscillator m = 1, k = 4, b = 1e8 /"
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        call perform(stiff//values, outcome, error)
+        call assertFalse(allocated(error), "it runs")
+        if (anyExceptions()) return
+        call assertEqual(1501, int(outcome%rows))
+        call assertEqual("", outcome%error_source())
+        call assertLessThan(outcome%error(), 0.0_dp, message="no error is known")
+        call perform(stiff//", expect_error = 1"//values, outcome, error)
+        call assertFalse(outcome%holds(), "nor does it hold")
+    end subroutine steps_that_would_not_end_are_not_taken
 
     subroutine a_closed_form_is_not_its_own_judge()
         !! Steps are, and they differ from it by rounding: by something, and little. A method that

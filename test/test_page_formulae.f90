@@ -34,6 +34,7 @@ contains
                                       gauge_functions_are_as_printed))
         call suite%addTest(TestMethod("action_page", action_page))
         call suite%addTest(TestMethod("same_motion_page", same_motion_page))
+        call suite%addTest(TestMethod("measure_g_page", measure_g_page))
         call suite%addTest(TestMethod("errata_pages", errata_pages))
     end function page_formulae_suite
 
@@ -211,9 +212,41 @@ contains
         call letters%set("exp(gamma t)", exp(0.78_dp))
         call try("same-motion", "damped oscillator", letters, read_of)
         call assertEqual(7, read_of, "with friction")
-        call try("same-motion", "L, 2 L and L + 3 J", letters, read_of)
+        call try("same-motion", "L and 2 L", letters, read_of)
         call assertEqual(8, read_of, "twice L")
     end subroutine same_motion_page
+
+    subroutine measure_g_page()
+        !! The formula of the note, with the masses of each row: M = 2 kg, h = 1.5 m.
+        real(dp), parameter :: differences(3) = [0.02_dp, 0.04_dp, 0.1_dp]
+        character(*), parameter :: left = "(sigma_g/g)^2 = "
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        type(names_t) :: letters
+        real(dp) :: value, size_of
+        integer :: at, i, row
+        logical :: ok
+
+        call page_once("measure-g", report, error)
+        call assertFalse(allocated(error), "measure-g")
+        if (anyExceptions()) return
+        at = findloc(index(report%notes, left) == 1, .true., 1)
+        call assertTrue(at > 0, "the formula is there")
+        row = findloc(index(report%rows%name, "m1 - m2 = 20 g") == 1, .true., 1)
+        call assertTrue(row > 0, "the rows are there")
+        if (anyExceptions()) return
+        do i = 1, size(differences)
+            associate (d => differences(i), text => report%notes(at))
+                call put(letters, "s_t s_h s_m h m1 m2 t", [0.1_dp, 1e-3_dp, 1e-3_dp, 1.5_dp, &
+                         1.0_dp + 0.5_dp*d, 1.0_dp - 0.5_dp*d, sqrt(6.0_dp/(d*9.81_dp))])
+                call letters%set("(m1^2 - m2^2)^2", (2.0_dp*d)**2)
+                call formula_value(text(len(left) + 1:len_trim(text) - 1), letters, value, &
+                                   size_of, ok)
+                call assertTrue(ok, trim(text))
+                call assertEqual(sqrt(value), report%rows(row + i - 1)%right, rounding, trim(text))
+            end associate
+        end do
+    end subroutine measure_g_page
 
     subroutine errata_pages()
         !! Frequencies and equations of the cart-pendulum, the wedge and the driven pendulum.

@@ -2,7 +2,7 @@ module lagrangia_record
     !! The observers that evaluate columns, write them down and remember their range: one row a
     !! sample, or one row an event with its number at the end.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_columns, only: columns_t, is_quantity
+    use lagrangia_columns, only: columns_t, is_error, is_quantity
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -85,11 +85,13 @@ contains
 
     subroutine observe(self, system, t, q, v, error)
         !! See `observer_t`. A number that is none ends the run, for the motion is none any more;
-        !! but not one of a quantity, which the motion does without: that is NaN.
+        !! but not one of a quantity, or an error that is not known, which the motion does without:
+        !! these are NaN.
         class(sample_record_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
+        logical :: may_be_none(size(self%columns%items))
         real(dp) :: deviation
         integer :: odd
 
@@ -105,11 +107,15 @@ contains
             call self%work%begin(system, t, q, v)
         end if
         call self%columns%evaluate(system, t, q, v, deviation, self%row, self%work%done())
-        where (self%columns%items%kind == is_quantity .and. .not. ieee_is_finite(self%row))
+        may_be_none = self%columns%items%kind == is_quantity
+        if (allocated(self%second_run)) then
+            may_be_none = may_be_none .or. (self%second_run%too_many .and. &
+                                            self%columns%items%kind == is_error)
+        end if
+        where (may_be_none .and. .not. ieee_is_finite(self%row))
             self%row = ieee_value(self%row, ieee_quiet_nan)
         end where
-        odd = findloc(ieee_is_finite(self%row) .or. self%columns%items%kind == is_quantity, &
-                      .false., 1)
+        odd = findloc(ieee_is_finite(self%row) .or. may_be_none, .false., 1)
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)

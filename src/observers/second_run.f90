@@ -3,6 +3,7 @@ module lagrangia_second_run
     !! itself: where no closed form exists, their distance estimates the error (Richardson;
     !! Hairer, Nørsett & Wanner, sec. II.4). Rounding that both share shows in the distance to
     !! another method, whose steps are few.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -21,6 +22,8 @@ module lagrangia_second_run
         real(dp) :: t0 = 0.0_dp
         real(dp) :: h = 0.0_dp        !! half the step of the run
         integer(i8) :: done = 0       !! half steps taken
+        integer(i8) :: affordable = 0           !! steps of the run; 0: any number
+        logical, public :: too_many = .false.   !! they would be more: no error is known
         real(dp), allocatable :: q(:), v(:)
         class(observer_t), pointer, public :: watcher => null()  !! hears it go on; may be null
     contains
@@ -61,7 +64,7 @@ contains
         self%v = v
     end subroutine start
 
-    subroutine start_adaptive(self, integrator, system, t0, t_end, q, v, error)
+    subroutine start_adaptive(self, integrator, system, t0, t_end, q, v, error, affordable)
         !! Get ready with an adaptive integrator of the run's kind.
         class(second_run_t), intent(inout) :: self
         class(dense_integrator_t), intent(in) :: integrator  !! is copied, with its tolerance
@@ -69,7 +72,10 @@ contains
         real(dp), intent(in) :: t0, t_end, q(system%ndof), v(system%ndof)
         !! s; coordinates, velocities at t0
         type(error_t), allocatable, intent(out) :: error  !! the method does not suit the system
+        integer(i8), intent(in), optional :: affordable
+        !! with more steps than these at its tolerance the error is not known; absent: any number
 
+        if (present(affordable)) self%affordable = affordable
         allocate (self%adaptive, source=integrator)
         allocate (self%probe, source=integrator)
         call self%probe%prepare(system, error)
@@ -104,7 +110,8 @@ contains
 
     subroutine estimate(self, system, t, q, deviation, error)
         !! Go to time `t` and estimate the error of the run's coordinates `q` there: no less than
-        !! their distance to the other method's. Fails where the tighter tolerance cannot be had.
+        !! their distance to the other method's. Fails where the tighter tolerance cannot be had;
+        !! NaN where that takes more steps than are affordable.
         class(second_run_t), intent(inout) :: self
         class(system_t), intent(in) :: system  !! that of `start`
         real(dp), intent(in) :: t, q(system%ndof)
@@ -140,7 +147,11 @@ contains
 
         deviation = 0.0_dp
         if (allocated(self%adaptive)) then
-            if (allocated(self%probe)) call bound_steps(self, system, error)
+            if (allocated(self%probe) .and. .not. self%too_many) then
+                call bound_steps(self, system, error)
+            end if
+            if (self%too_many) deviation = ieee_value(deviation, ieee_quiet_nan)
+            if (self%too_many) return
             do while (self%adaptive%t_new < t .and. .not. allocated(error))
                 call self%adaptive%step(system, error)
                 call self%tell(self%adaptive%t_new, self%adaptive%t_end)
@@ -172,6 +183,7 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error  !! they would not end
         type(error_t), allocatable :: unknown
+        integer(i8), parameter :: few = 10000  ! these show how many there will be
         integer(i8) :: steps
 
         steps = 0
@@ -179,6 +191,10 @@ contains
             call self%probe%step(system, unknown)
             if (allocated(unknown)) exit
             steps = steps + 1
+            self%too_many = self%affordable > 0 .and. steps == few .and. &
+                            (self%probe%t_new - self%t0)*self%affordable < &
+                            (self%probe%t_end - self%t0)*few
+            if (self%too_many) return
             call self%probe%refuse_more(steps, self%t0, self%probe%t_end, error)
             if (allocated(error)) return
             call self%tell(self%probe%t_new, self%probe%t_end)

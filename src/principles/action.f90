@@ -60,7 +60,12 @@ contains
                          " N/m, w = omega = "//to_text(omega)//"/s.")
         call report%note("Pendulum: m = "//to_text(bob)//" kg, l = "//to_text(l)//" m, g = "// &
                          to_text(g)//" m/s^2.")
-        call report%note("P: period. Neighbouring paths from the start meet at conjugate points.")
+        call report%note("x_max: the largest |x|, of the motion from 0.8 m with -0.6 m/s; "// &
+                         "the pendulum's from 0")
+        call report%note("with 4 rad/s. The paths found: from 1 m to 0.5 m; the pendulum's "// &
+                         "as it swings from rest")
+        call report%note("at 2 rad. P: period. Neighbouring paths from the start meet at "// &
+                         "conjugate points.")
     end subroutine action_principle
 
     subroutine computed_paths(oscillator, pendulum, report, error)

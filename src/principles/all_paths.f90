@@ -53,8 +53,8 @@ contains
         if (.not. allocated(error)) call find_rates(rates, found, error)
         if (allocated(error)) return
         paths = 0.0_dp
-        call report%section("pendulum, 0 to 1 rad in T = 9/w0: all paths that do not "// &
-                            "go over the top")
+        call report%section("pendulum, 0 to 1 rad in T = 9/w0: all paths not over the "// &
+                            "top; S  [J s]")
         do i = 1, found
             path(1, :) = closed_path(rates(i))
             call find_path(pendulum, 0.0_dp, time/n, path, error)
@@ -85,15 +85,19 @@ contains
         if (allocated(error)) return
         call report%note("S of the points: the limit of ever more pieces. Descent is among "// &
                          "paths of "//to_text(n)//" pieces;")
-        call report%note("their S_d differs from S by the square of a piece, and is compared "// &
-                         "with S_d of "//to_text(n)//" pieces.")
+        call report%note("their S_d less S falls with the square of a piece's duration; it is "// &
+                         "compared with S_d of "//to_text(n)//".")
+        call report%note("Over: the ratio of S_d less S, of 120 pieces to that of 240.")
         call report%note("Pendulum: m = "//to_text(m)//" kg, l = "//to_text(l)//" m, g = "// &
                          to_text(g)//" m/s^2, w0^2 = g/l; oscillator: the same m.")
         call report%note("Conjugate points: where neighbours of the path from the start meet "// &
                          "it again.")
-        call report%note("Descent: step by step against the slope of S, the ends held; down "// &
-                         "and up begin")
-        call report%note("along the variation that lowers S most, the lowest eigenvector.")
+        call report%note("Descent: step by step against the slope of S, the ends held. It "// &
+                         "begins 0.05 rad")
+        call report%note("below (down) or above (up) the path, along eta, the eigenvector of "// &
+                         "the lowest eigenvalue")
+        call report%note("of the second variation, along which S falls most; eta's largest "// &
+                         "value is 1.")
     end subroutine all_paths_principle
 
     pure subroutine swing(rate, t, theta, theta_dot)

@@ -54,10 +54,15 @@ contains
         call draw_terms(cart, report, error)
         call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
                          " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
-        call report%note("Sums: on the left over the masses and their x and y, from x(q); on "// &
-                         "the right from T = L + V.")
-        call report%note("The accelerations are arbitrary: it holds on any path, not only on "// &
-                         "the actual one.")
+        call report%note("Sums: on the left over the masses and their x and y, from x(q); "// &
+                         "on the right from T = L")
+        call report%note("+ V. At theta = 1.1 rad, x_dot = 0.8 m/s, theta_dot = -1.3 rad/s, "// &
+                         "x_ddot = 2.1 m/s^2,")
+        call report%note("theta_ddot = -0.6 rad/s^2. Bead: m = 0.6 kg, r = 0.5 m, r_dot = "// &
+                         "0.8 m/s, r_ddot = -1.7")
+        call report%note("m/s^2. The accelerations are arbitrary: it holds on any path, not "// &
+                         "only on the actual")
+        call report%note("one.")
     end subroutine dalembert_principle
 
     subroutine on_the_cart(cart, report)

@@ -49,6 +49,16 @@ contains
         call report%note("F must not contain q_dot: dF/dt then has q_ddot, which no L has. "// &
                          "Above, theta_ddot")
         call report%note("in dF/dt is replaced by -(g/l) sin(theta): another L, another motion.")
+        call report%note("Pendulum: m = 0.5 kg, l = 0.8 m, g = 9.81 m/s^2, theta = 0.9 rad, "// &
+                         "t = 0.7 s.")
+        call report%note("Cart-pendulum: m1 = 2 kg, m2 = 0.7 kg, l = 0.8 m; x = 0.4 m, "// &
+                         "theta = 0.9 rad,")
+        call report%note("x_dot = 0.6 m/s, theta_dot = -1.3 rad/s, t = 0.7 s; h = sum of p "// &
+                         "q_dot - L.")
+        call report%note("Oscillator: m = 0.5 kg, k = 2 N/m; F(1) at its start, F(2) at its "// &
+                         "end. Charge: m = 1.3 kg,")
+        call report%note("e = 0.7 C, B = 1.9 T, E = (0, 0.4, 0) V/m, at (0.4, 0.9) m with "// &
+                         "(0.6, -1.3) m/s.")
     end subroutine gauge_principle
 
     subroutine same_equations(systems, report, error)

@@ -46,9 +46,15 @@ contains
         if (.not. allocated(error)) call draw(bends, report, error)
         call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
                          " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
-        call report%note("Z = sum of m (x_ddot - F/m)^2 over the masses; delta: other "// &
-                         "accelerations of the q;")
-        call report%note("M: the mass matrix. Curvature: |acceleration across the path|/v^2.")
+        call report%note("x = 0.4 m, theta = 1.1 rad, x_dot = 0.8 m/s, theta_dot = -1.3 "// &
+                         "rad/s; delta in m/s^2 and")
+        call report%note("rad/s^2. Sphere: x = R (sin a cos b, sin a sin b, -cos a), from a "// &
+                         "= 1, b = 0.2 with 0.9,")
+        call report%note("2.3 rad/s; delta = (0.4, -0.7) rad/s^2. Z = sum of m (x_ddot - "// &
+                         "F/m)^2 over the masses;")
+        call report%note("delta: other accelerations of the q; M: the mass matrix. "// &
+                         "Curvature: |acceleration across")
+        call report%note("the path|/v^2.")
     end subroutine gauss_hertz_principle
 
     pure function constraint_of(cart, a) result(z)

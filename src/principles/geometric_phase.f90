@@ -41,11 +41,14 @@ contains
         if (allocated(error)) return
         call draw_displacement(report)
         call report%note("The disk: R = "//to_text(r)//" m.")
-        call report%note("Foucault: a trap with k/m = 4/s^2 on a planet whose day has 60 s; "// &
-                         "e B/m = 2 W sin(latitude).")
+        call report%note("Foucault: a trap with k/m = 4/s^2 on a planet whose day has 60 s, "// &
+                         "W = 2 pi/day;")
+        call report%note("e B/m = 2 W sin(latitude).")
         call report%note("The disk's constraints are dx = R sin(theta) dphi, dy = -R "// &
                          "cos(theta) dphi; theta = 0.4")
-        call report%note("where the legs begin, and in the middle of the circle.")
+        call report%note("where the legs begin. The circle: theta = 0.4 + rho cos(s), phi = "// &
+                         "rho sin(s), rho = 0.8,")
+        call report%note("s from 0 to 2 pi; J1: Bessel's function of order 1.")
     end subroutine geometric_phase_principle
 
     pure function rolled(disk, theta, d_phi) result(shift)

@@ -42,8 +42,16 @@ contains
         call along_a_fibre(report, error)
         if (allocated(error)) return
         call draw_paths(report, crossing)
-        call report%note("P: the optical path, sum of n ds; u: where the ray touches the mirror.")
-        call report%note("psi: angle between ray and layers; sigma: along the ray, ds = n dsigma.")
+        call report%note("P: the optical path, sum of n ds; u: where the ray touches the "// &
+                         "mirror. Hero: a = 1.2 m,")
+        call report%note("b = 2.5 m, d = 3 m, x from the foot of a. Concave: R = 2 m, s = "// &
+                         "1.5 m. Fermat: x from")
+        call report%note("the foot of the first point, angles from the perpendicular. "// &
+                         "Mirage: n0 = 1.3, kappa =")
+        call report%note("0.2/m, to sigma = 4 m. Fibre: n0 = 1.5, alpha = 0.8/m, to sigma = "// &
+                         "10 m; both from x = y")
+        call report%note("= 0. psi: angle between ray and layers; sigma: along the ray, ds "// &
+                         "= n dsigma.")
     end subroutine least_time_principle
 
     subroutine by_mirrors(report, error)

@@ -39,6 +39,7 @@ contains
         call at_the_envelope(report)
         call draw_throws(slopes, report)
         call report%note("m = "//to_text(m)//" kg, g = "//to_text(g)//" m/s^2.")
+        call report%note("T: the flat throw's time to the point. a: a length, the bend.")
         call report%note("A = int p dq = int m v ds. A path y beside a throw is run through "// &
                          "with "// &
                          "the same energy:")

@@ -12,6 +12,7 @@ module lagrangia_measure_g
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_report, only: report_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: measure_g_principle
@@ -37,8 +38,13 @@ contains
         call draw_errors(report)
         call report%note("M = 2 kg, h = 1.5 m; standard errors: watch 0.1 s, ruler 1 mm, each "// &
                          "mass 1 g.")
-        call report%note("20000 simulated measurements; the watch's error should be below a "// &
-                         "tenth of the fall.")
+        call report%note("(sigma_g/g)^2 = 4 s_t^2/t^2 + s_h^2/h^2 + 4 (m1^2 + m2^2) "// &
+                         "s_m^2/(m1^2 - m2^2)^2,")
+        call report%note("M = m1 + m2; s_t, s_h, s_m: those of watch, ruler and mass. It is of "// &
+                         "first order in them,")
+        call report%note("and leaves out about (sigma_g/g)^2 of itself. "//to_text(trials)// &
+                         " simulated measurements; those of")
+        call report%note("each difference of masses have the same random numbers.")
     end subroutine measure_g_principle
 
     pure function best_share() result(share)
@@ -68,13 +74,14 @@ contains
         call time_of_fall(share, 0.0_dp, radius, t, error)
         if (.not. allocated(error)) call time_of_fall(share, pulley, radius, slow, error)
         if (allocated(error)) return
-        call report%section("m1 = 1.1 kg, m2 = 0.9 kg: a fall, simulated, and its time to h")
+        call report%section("m1 = 1.1 kg, m2 = 0.9 kg: a fall, simulated, and its time to h; "// &
+                            "I, R: of a pulley")
         call report%equal("t = sqrt(2 h M/((m1 - m2) g))  [s]", t, sqrt(2.0_dp*h/(share*g)), &
                           simulated)
         call report%equal("g = 2 h M/((m1 - m2) t^2)  [m/s^2]", 2.0_dp*h/(share*t**2), g, &
                           20.0_dp*simulated)
-        call report%equal("pulley, I/R^2 = 0.2 kg: g M/(M + I/R^2)", 2.0_dp*h/(share*slow**2), &
-                          g*m/(m + pulley/radius**2), 20.0_dp*simulated)
+        call report%equal("I/R^2 = 0.2 kg: g M/(M + I/R^2)  [m/s^2]", &
+                          2.0_dp*h/(share*slow**2), g*m/(m + pulley/radius**2), 20.0_dp*simulated)
         call report%equal("with that pulley: is it g?  [m/s^2]", 2.0_dp*h/(share*slow**2), g, &
                           20.0_dp*simulated, control=.true.)
     end subroutine one_fall

@@ -42,11 +42,19 @@ contains
         if (allocated(error)) return
         call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
                          " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
-        call report%note("Tried: delta q = 1, t or a q in each direction, delta t = 1; F: t, "// &
-                         "q, "// &
-                         "sin q, cos q, q q'.")
-        call report%note("Part not found: 0 if a change of length 1 is among those found, 1 if "// &
-                         "nothing of it is.")
+        call report%note("M = m1 + m2, x_com = x + m2 l sin(theta)/M; from x = 0.3 m, theta "// &
+                         "= 1.1 rad, x_dot = 0.8")
+        call report%note("m/s, theta_dot = -1.3 rad/s. Double pendulum: the same m1, m2, l1 "// &
+                         "= 0.9 m, l2 = 1.7 m;")
+        call report%note("from 0.4 and -1.1 rad with 0.7 and 1.9 rad/s. Charge: m = 1.3 kg, "// &
+                         "e = -0.8 C, B = 1.5 T;")
+        call report%note("from (0.4, 0.9, -0.6) m with (0.6, -1.3, 0.5) m/s. Hoop: m = 0.6 "// &
+                         "kg, R = 0.9 m; from 0.8")
+        call report%note("rad with 1.4 rad/s. Tried: delta q = 1, t or a q in each "// &
+                         "direction, delta t = 1; F: t,")
+        call report%note("q, sin q, cos q, q q'. Part not found: 0 if a change of length 1 "// &
+                         "is among those found, 1")
+        call report%note("if nothing of it is.")
     end subroutine noether_principle
 
     subroutine on_the_cart(report, error)

@@ -60,7 +60,16 @@ contains
                          rounded(left_over, 3)//"/s; the bound is")
         call report%note(to_text(nint(regular/left_over))//" times that. Pendulum: m = "// &
                          to_text(m)//" kg, l = "//to_text(l)//" m, g = "//to_text(g)// &
-                         " m/s^2, b = "//to_text(damping)//" kg m^2/s.")
+                         " m/s^2, b = "//to_text(damping)//" kg m^2/s,")
+        call report%note("w0^2 = g/l, gamma = b/(m l^2); K: the complete elliptic integral "// &
+                         "of k = sin(theta0/2).")
+        call report%note("Cart-pendulum: m1 = 1.3 kg, m2 = 0.7 kg, l = 0.9 m; H at theta = "// &
+                         "1.1 rad, x_dot = 0.8")
+        call report%note("m/s, theta_dot = -1.3 rad/s; its exponent from rest at 2 rad. "// &
+                         "Double pendulum: 1 kg, 1 m")
+        call report%note("each; without g from 0.4 and -1.1 rad with 0.7 and 1.9 rad/s. "// &
+                         "sigma: the exponent's")
+        call report%note("standard error.")
     end subroutine phase_space_principle
 
     subroutine legendre(report, error)

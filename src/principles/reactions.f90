@@ -58,9 +58,15 @@ contains
         call report%note("Pendulum and cart-pendulum: m = m2 = "//to_text(m)//" kg, l = "// &
                          to_text(l)//" m, g = "//to_text(g)//" m/s^2; cart: m1 = "// &
                          to_text(m_cart)//" kg.")
-        call report%note("Left: multipliers of the 3n equations; right: by hand. Motions of "// &
-                         "3 s, "// &
-                         "301 samples.")
+        call report%note("D = m1 + m2 sin^2(th). Wedge: block m = 0.7 kg, wedge M = 2 kg, "// &
+                         "alpha = 0.6 rad. Disk: m")
+        call report%note("= 1.3 kg, R = 0.3 m, phi_dot = 4 rad/s, theta_dot = 1.1 rad/s. "// &
+                         "Stated twice: f1 = (l -")
+        call report%note("(x^2 + y^2)/l)/2 of the pendulum at th = 1.1 rad, th_dot = -1.3 "// &
+                         "rad/s; lambda: the")
+        call report%note("multiplier of f. Left: multipliers of the 3n equations; right: by "// &
+                         "hand. Motions of 3 s,")
+        call report%note("301 samples.")
     end subroutine reactions_principle
 
     subroutine along(system, q0, v0, forces, error)

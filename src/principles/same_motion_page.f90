@@ -2,7 +2,6 @@ module lagrangia_same_motion_page
     !! Different Lagrangians, the same motion, beyond \(L + dF/dt\): other momenta and other
     !! conserved quantities for the same paths.
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_oscillator, only: oscillator_t
@@ -33,8 +32,15 @@ contains
         call with_friction(report, error)
         if (allocated(error)) return
         call draw_invariants(report)
-        call report%note("w = "//to_text(omega)//"/s; damped: m = "//to_text(m)//" kg, k = "// &
-                         to_text(k)//" N/m, gamma = "//to_text(gamma)//"/s.")
+        call report%note("In the plane: m = 1 kg, w = "//to_text(omega)//"/s, x = 0.7 m, "// &
+                         "y = -0.4 m, x_dot = -0.9 m/s, y_dot = 1.6 m/s.")
+        call report%note("Damped, and L = m x_dot^2/2 - k x^2/2: m = "//to_text(m)//" kg, k = "// &
+                         to_text(k)//" N/m, gamma = "//to_text(gamma)//"/s;")
+        call report%note("x = 0.7 m, x_dot = v = -0.9 m/s, t = 1.3 s; h' and the energy: "// &
+                         "from 1 m at rest.")
+        call report%note("p, p': dL/dx_dot, dL'/dx_dot; h' = x_dot p' - L'. Off the motion: "// &
+                         "x_ddot = a = 0.3,")
+        call report%note("y_ddot = 1.1 m/s^2.")
         call report%note("Off the motion: at any x, x_dot and x_ddot. If L' - L were a dF/dt, "// &
                          "its equations")
         call report%note("would be 0 = 0 there too (lagrangia principle gauge).")
@@ -115,15 +121,14 @@ contains
                           equation(other, t, x, v, off, 1), exp(gamma*t)*newton, rounding)
         call report%equal("is it that without the factor, m a + ...? [N]", &
                           equation(other, t, x, v, off, 1), newton, rounding, control=.true.)
-        call report%section("L, 2 L and L + 3 J: a factor, a constant")
+        call report%section("L and 2 L: a factor")
         call twice%accelerations(0.0_dp, x, v, a)
         call report%equal("2 L: x_ddot  [m/s^2]", a(1), -k/m*x(1), rounding)
         call report%equal("2 L: p' = 2 p  [kg m/s]", momentum(twice), 2.0_dp*momentum(plain), &
                           rounding)
         call report%equal("is 2 L - L a dF/dt?  then 0 off the motion", &
-                          equation(plain, t, x, v, off, 1), 0.0_dp, rounding, control=.true.)
-        call report%equal("L + 3 J: its derivative by x, as of L  [N]", shifted_force(), -k*x(1), &
-                          rounding)
+                          equation(twice, t, x, v, off, 1) - equation(plain, t, x, v, off, 1), &
+                          0.0_dp, rounding, control=.true.)
     contains
         pure function momentum(system) result(p)
             class(system_t), intent(in) :: system
@@ -133,19 +138,6 @@ contains
             call expand_lagrangian(system, t, x, v, its)
             p = its%dl_dv(1)
         end function momentum
-
-        pure function shifted_force() result(force)
-            real(dp) :: force
-            type(hyperdual_t) :: l, tt, xx(1), vv(1)
-
-            tt%re = t
-            xx%re = x
-            vv%re = v
-            xx(1)%d1 = 1.0_dp
-            l = plain%lagrangian(tt, xx, vv)
-            l%re = l%re + 3.0_dp
-            force = l%d1
-        end function shifted_force
     end subroutine with_friction
 
     pure function x_p(state, t) result(product)

@@ -53,6 +53,7 @@ contains
         call draw_ladder(ladder, report)
         call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
                          " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
+        call report%note("w^2 = (m1 + m2) g/(m1 l).")
         call report%note("Powers: log2 of the ratio of two swings, A = 1/80 and 1/160 rad; "// &
                          "they "// &
                          "are whole but for A^2.")

@@ -39,10 +39,15 @@ contains
         call draw_paths(true, inside, report)
         call report%note("Inside L: L + mu1 (x_dot - R phi_dot sin(theta)) + mu2 (y_dot + R "// &
                          "phi_dot cos(theta)),")
-        call report%note("'vakonomic'. x points down the incline of 0.1 rad. A disk of 1.3 kg, "// &
-                         "R = 0.3 m,")
-        call report%note("that rolls with 4 rad/s and steers with 1.1 rad/s at first; "// &
-                         "mu1 = mu2 = 0 there.")
+        call report%note("'vakonomic'. x points down the incline of 0.1 rad. A disk of 1.3 "// &
+                         "kg, R = 0.3 m, phi_dot")
+        call report%note("= 4 rad/s and theta_dot = 1.1 rad/s at first, theta = 0 (along "// &
+                         "-y), mu1 = mu2 = 0 there;")
+        call report%note("steering locked: theta = 0.7, theta_dot = 0. Moments of inertia m "// &
+                         "R^2/2 about the axle,")
+        call report%note("m R^2/4 about a diameter; kappa = 2 g sin(0.1)/(3 R): phi_ddot of "// &
+                         "one that rolls")
+        call report%note("straight down; g = 9.81 m/s^2.")
     end subroutine vakonomic_principle
 
     subroutine start_of(heading, steering, disk, inside, q0, v0, error)

@@ -47,6 +47,17 @@ contains
         call generalized_forces(systems, report, error)
         if (allocated(error)) return
         call made_up_potentials(report, error)
+        call report%note("Double pendulum: m1 = 1.3 kg, m2 = 0.7 kg, l1 = 0.9 m, l2 = 1.7 "// &
+                         "m, g = 9.81 m/s^2; th1 =")
+        call report%note("0.4, th2 = -1.1, dth1 = 0.03, dth2 = 0.02 rad. Driven pendulum: l "// &
+                         "= 0.8 m, pivot at a")
+        call report%note("cos(W t), a = 0.1 m, W = 5 rad/s, t = 0.7 s, th = 0.9 rad, dth = "// &
+                         "-1.3 rad. Bead: m = 0.6")
+        call report%note("kg, W = 1.5 rad/s, r = 0.5 m, r_dot = 0.8 m/s. Charge: e = -0.8 "// &
+                         "C, t = 0.7 s, at (0.4,")
+        call report%note("0.9, -0.6) m with (0.6, -1.3, 0.5) m/s; made up: phi = x y "// &
+                         "exp(-t) + z^2 sin(x), A = (y")
+        call report%note("z t, x^2 cos(t) + z, sin(x y) + t z).")
     end subroutine virtual_work_principle
 
     subroutine displacements(report, error)

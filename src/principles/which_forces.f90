@@ -8,6 +8,7 @@ module lagrangia_which_forces
     use lagrangia_kinds, only: dp
     use lagrangia_other_lagrangians, only: bare_lagrangian_t
     use lagrangia_report, only: report_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: forced_t, which_forces_principle
@@ -50,6 +51,9 @@ contains
         call report%note("Conditions: dQ_i/dq_j_dot antisymmetric, dQ_i/dq_j - dQ_j/dq_i its "// &
                          "rate; "// &
                          "at 20 random states.")
+        call report%note("m = "//to_text(m)//" kg, k = "//to_text(k)//" N/m, gamma = "// &
+                         to_text(gamma)//"/s, e B = "//to_text(field)//" N s/m, c = "// &
+                         to_text(curl)//" N/m; f at 1.3 s.")
         call report%note("Friction has an L with a factor exp(gamma t): see lagrangia "// &
                          "principle "// &
                          "same-motion.")

@@ -1,5 +1,6 @@
 module lagrangia_outcome
     !! What came out of one scene, the verdict on it, and both as JSON.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_final_values, only: final_value_t, final_values_json
     use lagrangia_json, only: json_item, json_list, json_number, json_object, json_pair, &
                               json_string
@@ -84,6 +85,7 @@ contains
         do i = 1, size(self%others)
             if (self%others(i)%name == "error") value = self%others(i)%value
         end do
+        if (ieee_is_nan(value)) value = -1.0_dp
     end function error
 
     pure function error_source(self) result(word)

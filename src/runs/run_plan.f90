@@ -10,7 +10,7 @@ module lagrangia_run_plan
     use lagrangia_exact_motion, only: exact_motion_t
     use lagrangia_gnuplot, only: new_panels, other_columns_t, panel_t
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: exact, new_adaptive, workhorse
     use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps
     use lagrangia_period, only: period_t
@@ -208,6 +208,7 @@ contains
         type(second_run_t), intent(inout) :: second_run
         type(error_t), allocatable, intent(out) :: error
         class(dense_integrator_t), allocatable :: steps, other
+        integer(i8), parameter :: affordable = 10000000  ! steps: some 20 s
         real(dp) :: t_end
 
         if (system%contacts > 0) then
@@ -224,7 +225,8 @@ contains
             type is (exact_motion_t)
                 call new_adaptive(workhorse, steps)
                 steps%tolerance = steps%least_tolerance
-                call second_run%start_adaptive(steps, system, times%t0, t_end, q, v, error)
+                call second_run%start_adaptive(steps, system, times%t0, t_end, q, v, error, &
+                                               affordable)
             type is (stepwise_t)
                 call second_run%start(method%method, system, times%t0, times%dt, q, v, error)
             class is (dense_integrator_t)

@@ -6,7 +6,7 @@ module lagrangia_scorecard
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
-    use lagrangia_outcome, only: outcome_t, within
+    use lagrangia_outcome, only: from_steps, outcome_t, within
     use lagrangia_printed_table, only: left, short, two_digits
     use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_wrapping, only: wrapped
@@ -101,6 +101,8 @@ contains
                      "evaluation")//" of the accelerations, "//fixed(self%seconds, 4)//" s")
         else if (.not. allocated(self%failure)) then
             call add("no steps: the motion by its closed form, "//fixed(self%seconds, 4)//" s")
+            if (self%error_from == from_steps .and. self%error() < 0.0_dp) call add("the error "// &
+                "is not known: gauss16 would take more than 10^7 steps")
         end if
         call add_rounding()
         if (self%period <= 0.0_dp .and. self%intervals(2) > 0.0_dp) call add("no period: from "// &
