@@ -3,7 +3,7 @@ module lagrangia_integrator
     !! `advance` goes on from where the last one ended, and cannot fail.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_brief_forces, only: brief_forces_t
-    use lagrangia_description, only: line_length, name_length
+    use lagrangia_description, only: line_length, name_length, title_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: scientific
@@ -19,7 +19,7 @@ module lagrangia_integrator
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
-        character(line_length) :: title = ""  !! a few words and the source
+        character(title_length) :: title = ""  !! a few words and the source
         integer :: order = 0
         integer :: energy_order = 0           !! of its error, which stays bounded; 0: it may drift
         logical :: symplectic = .false.       !! a step is a canonical map of (q, p)

@@ -4,7 +4,7 @@ module lagrangia_methods
     use lagrangia_boris, only: boris_t, new_boris
     use lagrangia_canonical, only: midpoint_t, new_midpoint, new_stormer_verlet, stormer_verlet_t
     use lagrangia_composition, only: nth_composition
-    use lagrangia_description, only: line_length, name_length
+    use lagrangia_description, only: name_length, title_length
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss, only: gauss_t, new_gauss16
@@ -181,7 +181,7 @@ contains
     function method_titles(names) result(titles)
         !! What each of these methods is, in a few words; empty where it is none.
         character(*), intent(in) :: names(:)  !! of methods, fixed or adaptive
-        character(line_length) :: titles(size(names))
+        character(title_length) :: titles(size(names))
         class(dense_integrator_t), allocatable :: adaptive
         class(integrator_t), allocatable :: integrator
         integer :: i, k

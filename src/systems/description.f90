@@ -13,9 +13,11 @@ module lagrangia_description
               whole_number, real_vector, mass_point
     public :: add_zeros, check_parameter, constraint_text, default_values, described_by, &
               sizes_of_places, unit_over, value_names, velocity_names
-    public :: constraint_length, figure_length, formula_length, line_length, name_length
+    public :: constraint_length, figure_length, formula_length, line_length, name_length, &
+              title_length
 
     integer, parameter :: line_length = 120     !! of a line of text
+    integer, parameter :: title_length = 200    !! of a method or a closed form, with its source
     integer, parameter :: formula_length = 200  !! of a formula
     integer, parameter :: figure_length = 300   !! of one part of a figure
     integer, parameter :: constraint_length = 1000  !! of a constraint in rates, or of a note
