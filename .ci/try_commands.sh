@@ -187,6 +187,32 @@ refuses 2 "start 'x': " compare pendulum --starts "1 x" --output "$work/none"
 refuses 2 "unknown method ''" compare pendulum --methods rk4,,verlet --output "$work/none"
 run compare pendulum --starts "1  2" --quiet --output "$work/doubled"
 check "compare: blanks between two starts count once" eval '[ $status -eq 0 ] && [ "$(ls "$work/doubled" | grep -c "dat$")" = 2 ]'
+refuses 2 "start '-1': violates the constraint" compare bouncing_ball --starts "-1 2" --output "$work/none"
+rm -f "$work/not_again"
+for scene in pendulum kepler double_pendulum skate pendulum_turning; do
+    run compare $scene --methods rk4,dop853 --format csv --quiet --output "$work/again/csv"
+    [ "$status" -eq 0 ] || echo "$scene" >>"$work/not_again"
+    run compare $scene --methods rk4,dop853 --quiet --output "$work/again"
+    for method in rk4 dop853; do
+        sed -n "s/^# //p" "$work/again/${scene}_$method.dat" | sed -n "/^ *&/,/^ *\/$/p" >"$work/again/${scene}_$method.nml"
+        for file in "$work/again/csv/${scene}_$method.csv.nml" "$work/again/${scene}_$method.nml"; do
+            run run "$file" --quiet --output "$work/again/again"
+            [ "$status" -eq 0 ] && cmp -s <(grep -v "^#" "$work/again/${scene}_$method.dat") <(grep -v "^#" "$work/again/again/${scene}_$method.dat") || echo "$file" >>"$work/not_again"
+        done
+    done
+done
+check "compare: what it writes can be run again, and gives the same rows" [ ! -e "$work/not_again" ]
+run compare bouncing_ball --methods rk4,gauss16 --json --output "$work/again"
+check "compare: energy that impacts take is no drift, and the error is that beside the closed form" json 'all(e["error"] < 1e-12 and not any("energy" in k for k in e.get("drifts", {})) for e in d)'
+run compare pendulum --methods dop853,gauss16 --set scene%tolerance=1e-8 --output "$work/again"
+check "compare: a tolerance for methods that the scene's own is not one of" eval '[ $status -eq 0 ] && [ "$(grep -c "tolerance 1e-8 " "$work/out")" -eq 2 ]'
+run compare pendulum_turning --methods rk4,verlet --set scene%dt=0.01 --output "$work/again"
+check "compare: a step where the scene has a tolerance" eval '[ $status -eq 0 ] && [ "$(grep -c "dt = 0.01 s " "$work/out")" -eq 2 ]'
+run compare pendulum --methods rk4,dop853 --set scene%tolerance=1e-8 --set scene%dt=0.01 --output "$work/again"
+check "compare: each method takes of a step and a tolerance what it can" eval '[ $status -eq 0 ] && grep -q "rk4, dt = 0.01 s" "$work/out" && grep -q "dop853, tolerance 1e-8" "$work/out"'
+refuses 2 "method 'rk4' takes steps of dt" compare pendulum --methods rk4,verlet --set scene%tolerance=1e-8 --output "$work/none"
+run compare double_pendulum_section --methods rk4,gauss16 --output "$work/again"
+check "compare: samples far apart are no steps" eval '[ $status -eq 0 ] && grep -q "rk4, dt = 0.01 s" "$work/out"'
 refuses 2 "unknown picture format 'bmp'; there are png, svg, pdf" compare pendulum --methods rk4,verlet --plot=bmp --output "$work/none"
 refuses 2 "--overlay: two scenes at least are needed" run pendulum --overlay --output "$work/none"
 refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output=overlay --output "$work/none"
