@@ -40,7 +40,8 @@ if "G" in page:
     matrix("G", G)
 head = next(k for k, line in enumerate(text) if line.startswith("omega^2"))
 for k in range(n):
-    line = text[head + 1 + k]
+    line, _, bound = text[head + 1 + k].partition(", omega below ")
+    assert bound == "" or page["label"][k] == "zero mode" and float(bound.split()[0])**2 < 1e-12, bound
     assert line.endswith(page["label"][k]), line
     words = line[:len(line) - len(page["label"][k])].split()
     omega2 = page["omega2"][k]

@@ -1105,7 +1105,7 @@ said() { # said FORMULAS: a mass in a plane, with V = k/2 x^2, and what is typed
         "&lagrangian coordinates='x [m]','y [m]', parameters='m','k', T='m/2 (x_dot^2+y_dot^2)', V='k/2 (x^2 + y^2)', $1 /" "&plane m=1, k=2 /" >"$work/said/plane.nml"
 }
 for line in "x x_dot + y y_dot = 0|holonomic, scleronomic" "x_dot = y_dot|holonomic, scleronomic" "y x_dot = x y_dot|holonomic, scleronomic" "x_dot = k|holonomic, rheonomic" \
-    "x = y|holonomic, scleronomic" "x = k t|holonomic, rheonomic" "x_dot = t y_dot|nonholonomic, rheonomic" "x_dot = x y|nonholonomic, rheonomic"; do
+    "x = y|holonomic, scleronomic" "x = k t|holonomic, rheonomic" "x_dot = t y_dot|nonholonomic, rheonomic" "x_dot = x y|nonholonomic, scleronomic"; do
     IFS='|' read -r bond class <<<"$line"
     said "constraint='$bond'"
     sed -i "s/, v=0, 0//" "$work/said/plane.nml"

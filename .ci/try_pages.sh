@@ -133,6 +133,8 @@ own() { # derivation, modes and description of each line of .ci/own_systems.txt,
 systems=$("$program" list systems | awk '{ print $1 }')
 for system in $systems atwood_lift double_pendulum_formulas; do page plain describe "$system"; done
 for system in $systems; do page plain modes "$system"; done
+page plain modes .ci/inputs/stiff_pair.nml
+page plain modes .ci/inputs/stiff_pair.nml --set stiff_pair%k_c=1e16
 for principle in $("$program" principle | awk '{ print $1 }'); do page statements principle "$principle"; done
 page plain course
 page plain principle

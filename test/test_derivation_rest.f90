@@ -9,7 +9,7 @@ module test_derivation_rest
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: constant, expression_t, operator(*), operator(+), operator(-), &
                                     symbol, whole
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, qp
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -33,6 +33,7 @@ contains
 
         suite = TestSuite("derivation_rest")
         call suite%addTest(TestMethod("drag_of_one_coordinate", drag_of_one_coordinate))
+        call suite%addTest(TestMethod("rates_far_apart", rates_far_apart))
         call suite%addTest(TestMethod("drag_of_two", drag_of_two))
         call suite%addTest(TestMethod("one_of_three_is_unstable", one_of_three_is_unstable))
         call suite%addTest(TestMethod("places_that_are_not_zero", places_that_are_not_zero))
@@ -210,7 +211,7 @@ contains
         call holds(one//"T = 'm/2 x_dot^2' V = 'k/2 x^2' Q_x = '-19 b x_dot'", &
                    "q goes as A exp(-gamma_1 t) + B exp(-gamma_2 t): omega^2 < 0 at these "// &
                    "parameters, overdamped|gamma = 19 b/(2 m)|omega^2 = k/m - (19 b/(2 m))^2|"// &
-                   "gamma_1 = 19 b/(2 m) - sqrt((19 b/(2 m))^2 - k/m)|"// &
+                   "gamma_1 = k/m/(19 b/(2 m) + sqrt((19 b/(2 m))^2 - k/m))|"// &
                    "gamma_2 = 19 b/(2 m) + sqrt((19 b/(2 m))^2 - k/m)")
         call holds(one//"T = 'm/2 x_dot^2' V = 'm/8 x^2' Q_x = '-m x_dot'", &
                    "q goes as (A + B t) exp(-gamma t): omega^2 = 0 at these parameters, "// &
@@ -218,7 +219,7 @@ contains
         call holds(one//"T = 'm/2 x_dot^2' Q_x = '-b x_dot'", "gamma_1 = 0|gamma_2 = b/m")
         call holds(one//"T = 'm/2 x_dot^2' V = '-k/2 x^2' Q_x = '-b x_dot'", &
                    "q goes as A exp(-gamma_1 t) + B exp(-gamma_2 t): omega^2 < 0 at these "// &
-                   "parameters|gamma_1 = b/(2 m) - sqrt((b/(2 m))^2 + k/m)")
+                   "parameters|gamma_1 = (-k/m)/(b/(2 m) + sqrt((b/(2 m))^2 + k/m))")
         call holds(one//"T = 'm/2 x_dot^2' Q_x = 'k x'", &
                    "gamma_1 = -sqrt(k/m)|gamma_2 = sqrt(k/m)")
         call holds(one//"T = 'm/2 x_dot^2' Q_x = '-k x - b x_dot + b x x_dot^2'", &
@@ -227,6 +228,41 @@ contains
                    "K = k|q goes as exp(-gamma t) cos(omega t): omega^2 > 0 at these parameters"// &
                    "|gamma = 0|omega^2 = k/m")
     end subroutine drag_of_one_coordinate
+
+    subroutine rates_far_apart()
+        !! Of m = k = 1 the formula and LAPACK's root are both the exact rate, in quadruple
+        !! precision, to rounding; with the other sign of b they grow.
+        type(derivation_t) :: derivation
+        type(slip_in_formula_t) :: none
+        type(comparison_t), allocatable :: c(:)
+        class(system_t), allocatable :: system
+        type(random_t) :: random
+        type(error_t), allocatable :: error
+        real(qp) :: root, rates(2)
+        integer :: i, decade, sign_of
+
+        do sign_of = -1, 1, 2
+            call make(one//"T = 'm/2 x_dot^2' V = 'k/2 x^2' Q_x = '"// &
+                      trim(merge("-b x_dot", "b x_dot ", sign_of == 1))//"'", system, error)
+            if (allocated(error)) return
+            do decade = 1, 8
+                call system%configure([1.0_dp, 1.0_dp, 2.0_dp*10.0_dp**decade, 1.0_dp], error)
+                call derive(system, none, derivation, error)
+                call compare_lines(derivation, system, random, c, error)
+                call assertFalse(allocated(error), message="compared")
+                root = sqrt(100.0_qp**decade - 1)
+                rates = sign_of*[1/(10.0_qp**decade + root), 10.0_qp**decade + root]
+                if (sign_of == -1) rates = rates(2:1:-1)
+                do i = 1, 2
+                    associate (last => c(derivation%count - 2 + i))
+                        call assertTrue(abs(last%formula/rates(i) - 1) < 1e-14_qp .and. &
+                                        abs(last%program/rates(i) - 1) < 1e-14_qp .and. &
+                                        last%noise < 1e-10_dp*abs(rates(i)), message="a rate")
+                    end associate
+                end do
+            end do
+        end do
+    end subroutine rates_far_apart
 
     subroutine drag_of_two()
         !! The polynomial of the rates, with G and forces that are not symmetric; letters that are

@@ -28,6 +28,7 @@ contains
         call suite%addTest(TestMethod("growth_that_is_turned", growth_that_is_turned))
         call suite%addTest(TestMethod("zeros_are_zeros", zeros_are_zeros))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
+        call suite%addTest(TestMethod("a_coordinate_of_its_own", a_coordinate_of_its_own))
         call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
                                       three_masses_on_stiff_dashpots))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
@@ -305,6 +306,28 @@ contains
                             message="a slow one")
         end do
     end subroutine three_masses_on_stiff_dashpots
+
+    subroutine a_coordinate_of_its_own()
+        !! Drag on two of three coordinates leaves the third alone: it does not decay, nor grow.
+        real(dp), parameter :: k(3, 3) = reshape([60.0_dp, -40.0_dp, 0.0_dp, -40.0_dp, 80.0_dp, &
+                                                  0.0_dp, 0.0_dp, 0.0_dp, 0.2_dp], [3, 3])
+        real(dp) :: d(3, 3), m(3, 3)
+        complex(dp), allocatable :: lambda(:)
+        integer :: i, j
+
+        m = 0.0_dp
+        d = 0.0_dp
+        do i = 1, 3
+            m(i, i) = 1.0_dp
+        end do
+        do i = 1, 2
+            d(i, i) = 3.0_dp
+            call solve(m, d, k, lambda)
+            j = minloc(abs(abs(aimag(lambda)) - sqrt(0.2_dp)), 1)
+            call assertEqual(0.0_dp, real(lambda(j)), 0.0_dp, message="no decay")
+            call assertEqual(sqrt(0.2_dp), abs(aimag(lambda(j))), 1e-15_dp, message="omega")
+        end do
+    end subroutine a_coordinate_of_its_own
 
     subroutine no_inertia()
         !! A singular M is an error of LAPACK's, with nothing solved.

@@ -32,6 +32,7 @@ contains
         suite = TestSuite("work")
         call suite%addTest(TestMethod("by_dense_output", by_dense_output))
         call suite%addTest(TestMethod("between_steps", between_steps))
+        call suite%addTest(TestMethod("faster_than_the_steps", faster_than_the_steps))
         call suite%addTest(TestMethod("of_a_free_body", of_a_free_body))
         call suite%addTest(TestMethod("after_impacts", after_impacts))
         call suite%addTest(TestMethod("where_it_cannot_stand", where_it_cannot_stand))
@@ -102,6 +103,33 @@ contains
         call assertTrue(coarse > 1e-12_dp .and. coarse < 1e-4_dp, "the coarse one is to be seen")
         call assertLessThan(fine, coarse/14.0_dp, message="order 4")
     end subroutine between_steps
+
+    subroutine faster_than_the_steps()
+        !! A decay of which the rows show nothing: \(e^{-bt/m}\), sampled each 0.02 s. Where it
+        !! takes too many steps the run says so.
+        character(:), allocatable :: message
+        real(dp) :: drift
+
+        call of_drag("'auto'", "1e2")
+        call of_drag("'auto'", "1e4")
+        call of_drag("'auto'", "1e6")
+        call of_drag("'gauss16'", "1e2")
+        call drifted("system = 'oscillator', method = 'auto', dt = 0.02, duration = 1.0, "// &
+                     "q = 1.0, v = 0.5, columns = 't', 'work'", &
+                     "&oscillator m = 1.0, k = 4.0, b = 1e9 /", drift, message)
+        call assertTrue(index(message, "not resolved between the steps") > 0, message)
+    contains
+        subroutine of_drag(method, b)
+            character(*), intent(in) :: method, b
+
+            call drifted("system = 'oscillator', method = "//method//", dt = 0.02, "// &
+                         "duration = 1.0, q = 1.0, v = 0.5, columns = 't', "// &
+                         "'energy_balance_drift'", "&oscillator m = 1.0, k = 4.0, b = "//b// &
+                         " /", drift, message)
+            call assertTrue(message == "" .and. drift >= 0.0_dp, message)
+            call assertLessThan(drift, 1e-11_dp, message=method//", b = "//b)
+        end subroutine of_drag
+    end subroutine faster_than_the_steps
 
     subroutine of_a_free_body()
         !! \(W = \frac m2v_0^2(e^{-2bt/m} - 1)\), and so \(E - W\) stays \(\frac m2v_0^2\).

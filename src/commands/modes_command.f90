@@ -2,6 +2,7 @@ module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's
     !! name or path stands for its system.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_certain_digits, only: certain, number, rounding_of
     use lagrangia_changed_scene, only: make_own_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
@@ -162,6 +163,7 @@ contains
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         type(description_t) :: d
+        real(dp) :: share  !! of omega^2, that rounding may have changed; all of what is 0
         character(140) :: row
         integer :: j, k, n
 
@@ -186,13 +188,17 @@ contains
         call put_line("omega^2 [s^-2]     omega [rad/s]      f [Hz]             T [s]         "// &
                       "     closed form        differ   what")
         do j = 1, n
-            row = number(modes%omega2(j))
+            share = rounding_of(modes, j)
+            if (is_nonzero(modes%omega2(j))) share = share/abs(modes%omega2(j))
+            row = certain(modes%omega2(j), share)
             if (modes%label(j) == is_oscillation) then
                 associate (w => modes%omega(j))
-                    row(20:) = number(w)//" "//number(w/(2.0_dp*pi))//" "//number(2.0_dp*pi/w)
+                    row(20:) = certain(w, 0.5_dp*share)
+                    row(39:) = certain(w/(2.0_dp*pi), 0.5_dp*share)
+                    row(58:) = certain(2.0_dp*pi/w, 0.5_dp*share)
                 end associate
             else if (modes%label(j) == is_unstable) then
-                row(20:) = "growth rate "//number(sqrt(-modes%omega2(j)))//" 1/s"
+                row(20:) = "growth rate "//certain(sqrt(-modes%omega2(j)), 0.5_dp*share)//" 1/s"
                 if (modes%turning(j) > 0.0_dp) then
                     row(:19) = "complex"
                     row(50:) = "turns by "//trim(number(modes%turning(j)))//" rad/s"
@@ -203,6 +209,8 @@ contains
                 row(96:) = short(relative(modes, j))
             end if
             row(105:) = labels(modes%label(j))
+            if (is_zero(modes%omega2(j)) .and. share > 0.0_dp) row(len_trim(row) + 1:) = &
+                ", omega below "//short(sqrt(share))//" rad/s"
             call put_line(trim(row))
         end do
         do j = 2, n
@@ -259,8 +267,8 @@ contains
         do j = 1, size(lambda)
             associate (gamma => -real(lambda(j)), omega => aimag(lambda(j)), delta => rounding(j))
                 if (omega > 0.0_dp) then
-                    call put_line("  decay rate "//certain(gamma, delta, omega)//" 1/s, omega "// &
-                                  certain(omega, delta**2/omega, omega)//" rad/s")
+                    call put_line("  decay rate "//decay(gamma, delta, omega)//" 1/s, omega "// &
+                                  certain(omega, (delta/omega)**2)//" rad/s")
                 else
                     call put_line("  decay rate "//trim(number(gamma))//" 1/s, no oscillation")
                 end if
@@ -268,21 +276,18 @@ contains
         end do
     end subroutine put_damped
 
-    pure function certain(value, delta, omega) result(text)
-        !! As many of its digits as there are; a 0 that rounding may have made is none where
-        !! \(\delta > 10^{-10}\omega\).
-        real(dp), intent(in) :: value, delta  !! of a mode, and how far it may be off
+    pure function decay(gamma, delta, omega) result(text)
+        !! A 0 that rounding may have made is none where \(\delta > 10^{-10}\omega\).
+        real(dp), intent(in) :: gamma, delta  !! of a mode, and how far it may be off
         real(dp), intent(in) :: omega         !! its frequency
         character(:), allocatable :: text
 
-        if (delta <= 5e-12_dp*abs(value) .or. (is_zero(value) .and. delta <= 1e-10_dp*omega)) then
-            text = trim(number(value))
-        else if (delta < 0.5_dp*abs(value)) then
-            text = scientific(value, max(1, floor(log10(abs(value)/delta))))
+        if (delta < 0.5_dp*abs(gamma) .or. (is_zero(gamma) .and. delta <= 1e-10_dp*omega)) then
+            text = certain(gamma, delta/max(abs(gamma), tiny(gamma)))
         else
             text = "below "//scientific(delta, 1)
         end if
-    end function certain
+    end function decay
 
     subroutine put_shapes(modes)
         !! One a line; of a mode that turns, what goes as \(\sin\omega t\) on a second line.
@@ -358,21 +363,6 @@ contains
             call put_line(trim(row))
         end do
     end subroutine put_matrix
-
-    pure function number(value) result(text)
-        !! Twelve digits, left-justified in 18.
-        real(dp), intent(in) :: value
-        character(18) :: text
-
-        text = "0"
-        if (is_zero(value)) return
-        if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
-            write (text, "(ss, f18.11)") value
-        else
-            write (text, "(ss, es18.10e3)") value  ! as wide as the longest
-        end if
-        text = adjustl(text)
-    end function number
 
     pure function short(value) result(text)
         !! Two digits.

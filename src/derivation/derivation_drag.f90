@@ -6,7 +6,7 @@ module lagrangia_derivation_drag
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
     use lagrangia_exact_number, only: ratio
     use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(**), operator(+), &
-                                    operator(-)
+                                    operator(-), operator(/)
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_kinds, only: dp, i8
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
@@ -76,7 +76,8 @@ contains
         !! \(\gamma\), \(\omega^2\), and what q is at the given parameters: \(e^{-\gamma t}
         !! \cos\omega t\) where \(\omega^2 > 0\), \((A + Bt)e^{-\gamma t}\) where it is zero,
         !! else the sum of two exponentials of the rates
-        !! \(\gamma_{1,2} = \gamma\mp\sqrt{\gamma^2 - K/M}\).
+        !! \(\gamma_{1,2} = \gamma\mp\sqrt{\gamma^2 - K/M}\), that which cancels as
+        !! \(\gamma_1 = (K/M)/\gamma_2\).
         type(derivation_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: mass, drag, stiffness
         complex(dp), intent(in) :: lambda(:)
@@ -135,12 +136,19 @@ contains
             root = rate**2 - free
         end if
         root = apply(f_sqrt, root)
-        if (drag%terms > 0) then
-            call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=rate - root)
-            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=rate + root)
-        else
+        if (drag%terms == 0) then
             call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=-root)
             call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=root)
+            return
+        end if
+        ! the rate that would be the difference is (K/M) over the other one
+        call lay_out_quotient(self%algebra, self%roles, stiffness, mass, free)
+        if (sum(real(lambda)) < 0.0_dp) then
+            call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=free/(rate + root))
+            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=rate + root)
+        else
+            call self%add(line_decay, letter//"_1", tex//"_1", drag, 1, e=rate - root)
+            call self%add(line_decay, letter//"_2", tex//"_2", drag, 2, e=free/(rate - root))
         end if
     end subroutine add_one
 

@@ -52,6 +52,7 @@ contains
         type(description_t) :: d
         real(dp), dimension(size(modes%at), size(modes%at)) :: beside
         real(dp), allocatable :: values(:)
+        complex(dp), allocatable :: lambda(:)
         real(dp) :: usual(size(modes%at)), noise, value, gamma, omega2
         integer :: k
 
@@ -78,10 +79,10 @@ contains
             end if
             c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*noise
         case (line_decay, line_damped_omega2)
-            call one_rate(system, modes, gamma, omega2, c%known)
+            call one_rate(system, modes, gamma, omega2, lambda, c%known)
             if (.not. c%known) return
             if (line%i > 0) then
-                call compare_exponential(modes, gamma, omega2, line, c)
+                call compare_exponential(-real(lambda), line, c)
                 return
             end if
             c%program = merge(gamma, omega2, line%kind == line_decay)
@@ -118,20 +119,20 @@ contains
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
     end subroutine compare_modes
 
-    pure subroutine compare_exponential(modes, gamma, omega2, line, c)
-        !! Of two exponentials the slower (1) or the faster (2) rate,
-        !! \(\gamma\mp\sqrt{-\omega^2}\): rounding of \(\omega^2\), as of its own line, through
-        !! the root.
-        type(modes_t), intent(in) :: modes
-        real(dp), intent(in) :: gamma, omega2  !! of LAPACK's rates
+    pure subroutine compare_exponential(rates, line, c)
+        !! Of two exponentials the slower (1) or the faster (2) rate as LAPACK has it. Rounding of
+        !! \(\omega^2\), as of its own line, moves both relative to their size by that over
+        !! their distance times the larger.
+        real(dp), intent(in) :: rates(:)  !! \(-\lambda\), 1/s
         type(line_t), intent(in) :: line
         type(comparison_t), intent(inout) :: c
-        real(dp) :: noise, root
+        real(dp) :: distance, largest, relative
 
-        root = sqrt(max(-omega2, 0.0_dp))
-        c%program = gamma + merge(-root, root, line%i == 1)
-        noise = 256.0_dp*epsilon(1.0_dp)*(abs(omega2) + gamma**2)
-        c%noise = c%noise + noise/max(root, sqrt(noise), tiny(noise)) + sqrt(epsilon(noise)*noise)
+        c%program = merge(minval(rates), maxval(rates), line%i == 1)
+        largest = maxval(abs(rates))
+        distance = maxval(rates) - minval(rates)
+        relative = 512.0_dp*epsilon(1.0_dp)*largest/max(distance, tiny(distance))
+        c%noise = c%noise + min(relative, 1.0_dp)*abs(c%program)
     end subroutine compare_exponential
 
     pure function imaginary(polynomial, omega) result(turned)
@@ -272,13 +273,13 @@ contains
         end do
     end function paired
 
-    subroutine one_rate(system, modes, gamma, omega2, known)
+    subroutine one_rate(system, modes, gamma, omega2, lambda, known)
         !! Of one coordinate, from LAPACK's \(\lambda = -\gamma\pm i\omega\).
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         real(dp), intent(out) :: gamma, omega2
+        complex(dp), allocatable, intent(out) :: lambda(:)
         logical, intent(out) :: known
-        complex(dp), allocatable :: lambda(:)
         type(error_t), allocatable :: error
 
         gamma = 0.0_dp

@@ -6,10 +6,10 @@ module lagrangia_rounded_numbers
                                     kind_symbol, operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
-    use lagrangia_number_class, only: all_finite, is_nonzero
+    use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
-    use lagrangia_simple_numbers, only: is_simple, number_text
+    use lagrangia_simple_numbers, only: number_text
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_verdict, only: brief, telling_digits
     implicit none (type, external)
@@ -264,11 +264,12 @@ contains
         type(samples_t), intent(in) :: samples                 !! on the motion
         type(explanation_t), intent(inout) :: explanation      !! changes where it is so
         real(dp), allocatable :: values(:, :), results(:, :), given(:)
-        real(dp), parameter :: pi = acos(-1.0_dp)
         character(:), allocatable :: text
+        logical :: of_pi
         integer :: mode
 
         if (any(right%nodes(:right%count)%kind == kind_symbol)) return
+        of_pi = any(is_zero(right%nodes(:right%count)%number%value - acos(-1.0_dp)))
         if (speaks_of_place(left, samples) .and. any(abs(samples%other_equilibrium - &
                             samples%equilibrium) > 0.0_dp)) return  ! there are several
         text = ""
@@ -282,7 +283,7 @@ contains
                 if (.not. all_finite(r)) cycle
                 if (maxval(r) - minval(r) > 1e-9_dp*maxval(abs(r))) cycle
                 if (text /= "") text = text//" or "
-                if (is_simple(r(1)/pi)) then
+                if (of_pi .and. index(number_text(r(1)), "pi") > 0) then
                     text = text//number_text(r(1))
                 else
                     text = text//brief(r(1), telling_digits(r(1), given(1)))

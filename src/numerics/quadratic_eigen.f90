@@ -133,7 +133,8 @@ contains
     end subroutine eigenvalues
 
     pure subroutine find_shape(lambda, mass, damping, stiffness, u, error)
-        !! The u that \(\lambda^2M + \lambda D + K\) shortens most, rows and columns of one size.
+        !! The u that \(\lambda^2M + \lambda D + K\) shortens most, rows and columns of one size:
+        !! of the terms, since what cancels in a coordinate of its own is that coordinate's mode.
         complex(dp), intent(in) :: lambda
         real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
         complex(dp), intent(out) :: u(:)
@@ -145,7 +146,8 @@ contains
 
         n = size(u)
         q = lambda**2*mass + lambda*damping + stiffness
-        call equilibrate(abs(q), rows, columns)
+        call equilibrate(abs(lambda)**2*abs(mass) + abs(lambda)*abs(damping) + abs(stiffness), &
+                         rows, columns)
         do i = 1, n
             q(:, i) = rows*q(:, i)*columns(i)
         end do
@@ -159,7 +161,9 @@ contains
         else
             call least_vector(a, x, error)
         end if
-        u = columns*cmplx(x(:n), x(n + 1:), dp)
+        u = cmplx(x(:n), x(n + 1:), dp)
+        where (abs(u) <= 4*epsilon(1.0_dp)*maxval(abs(u))) u = 0.0_dp  ! rounding
+        u = columns*u
     end subroutine find_shape
 
     pure subroutine improve(lambda, u, noise, mass, damping, stiffness)

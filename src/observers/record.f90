@@ -113,6 +113,8 @@ contains
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)
+            if (.not. ieee_is_finite(self%work%done())) error%message = error%message// &
+                ": the work is not resolved between the steps: shorten them, or give a tolerance"
             return
         end if
         call self%keep(self%row, self%shown, error)

@@ -5,11 +5,17 @@ module lagrangia_work
     !!
     !! A method with dense output is asked inside its step, at eight Gauss-Legendre nodes of each
     !! part of it. Between two steps of another a coordinate is the quintic that has both ends'
-    !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\).
+    !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\). Where the
+    !! cubic of coordinates and velocities alone has another W, the step is too long for that, as
+    !! where a decay is faster than the steps: `dop853` then goes through it. W is no number where
+    !! that would take too long.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_dop853, only: dop853_t, new_dop853
+    use lagrangia_errors, only: error_t
     use lagrangia_gauss_tables, only: nodes, stages, weights
     use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: energy_rate
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -21,6 +27,7 @@ module lagrangia_work
         class(system_t), allocatable :: system
         real(dp), private :: sum = 0.0_dp, rest = 0.0_dp   !! J
         real(dp), private :: t = 0.0_dp
+        integer(i8), private :: steps_left = 1000000  !! of dop853; each step of the run adds some
         real(dp), allocatable, private :: q(:), v(:)
     contains
         procedure :: begin
@@ -29,6 +36,7 @@ module lagrangia_work
         procedure :: follow_inside
         procedure :: stand
         procedure, private :: add
+        procedure, private :: go_through
     end type work_t
 
 contains
@@ -80,27 +88,77 @@ contains
         !! The state after a step.
         class(work_t), intent(inout) :: self
         real(dp), intent(in) :: t, q(:), v(:)         !! s; coordinates, velocities, (ndof)
-        real(dp), dimension(size(q)) :: a_old, a, q_now, v_now
-        real(dp) :: c(0:5, size(q)), h, s, part
-        integer :: i, k
+        real(dp), parameter :: alike = 1e-6_dp  ! of the cubic's O(h^4): the quintic's is 1e-9
+        real(dp), dimension(size(q)) :: a_old, a
+        real(dp) :: fifth(0:5, size(q)), third(0:5, size(q)), h, part, other, sizes
+        integer :: i
 
         h = t - self%t
         call self%system%accelerations(self%t, self%q, self%v, a_old)
         call self%system%accelerations(t, q, v, a)
         do i = 1, size(q)
-            c(:, i) = quintic(h, [self%q(i), self%v(i), a_old(i)], [q(i), v(i), a(i)])
+            fifth(:, i) = quintic(h, [self%q(i), self%v(i), a_old(i)], [q(i), v(i), a(i)])
         end do
-        part = 0.0_dp
-        do k = 1, stages
-            s = nodes(k)
-            q_now = c(0, :) + s*(c(1, :) + s*(c(2, :) + s*(c(3, :) + s*(c(4, :) + s*c(5, :)))))
-            v_now = (c(1, :) + s*(2.0_dp*c(2, :) + s*(3.0_dp*c(3, :) + s*(4.0_dp*c(4, :) &
-                                                                          + s*5.0_dp*c(5, :)))))/h
-            part = part + weights(k)*energy_rate(self%system, self%t + s*h, q_now, v_now)
-        end do
-        call self%add(h*part)
+        third = fifth
+        third(2, :) = 3.0_dp*(q - self%q) - h*(2.0_dp*self%v + v)
+        third(3, :) = h*(self%v + v) - 2.0_dp*(q - self%q)
+        third(4:, :) = 0.0_dp
+        call take(third, other, sizes)
+        call take(fifth, part, sizes)
+        if (h > 0.0_dp .and. abs(part - other) > alike*sizes) then
+            call self%go_through(t, maxval(abs([self%q, self%v, q, v])))
+        else
+            call self%add(part)
+        end if
         call self%stand(t, q, v)
+    contains
+        subroutine take(c, work, sizes)
+            !! The work along polynomials, and the sum of the sizes of its parts.
+            real(dp), intent(in) :: c(0:, :)
+            real(dp), intent(out) :: work, sizes
+            real(dp), dimension(size(q)) :: q_now, v_now
+            real(dp) :: s, one
+            integer :: k
+
+            work = 0.0_dp
+            sizes = 0.0_dp
+            do k = 1, stages
+                s = nodes(k)
+                q_now = c(0, :) + s*(c(1, :) + s*(c(2, :) + s*(c(3, :) + s*(c(4, :) + s*c(5, :)))))
+                v_now = (c(1, :) + s*(2.0_dp*c(2, :) + s*(3.0_dp*c(3, :) + &
+                                                         s*(4.0_dp*c(4, :) + s*5.0_dp*c(5, :)))))/h
+                one = weights(k)*energy_rate(self%system, self%t + s*h, q_now, v_now)
+                work = work + one
+                sizes = sizes + abs(one)
+            end do
+            work = h*work
+            sizes = abs(h)*sizes
+        end subroutine take
     end subroutine follow
+
+    subroutine go_through(self, t, scale)
+        !! The motion from the last state, to that time.
+        class(work_t), intent(inout) :: self
+        real(dp), intent(in) :: t      !! s
+        real(dp), intent(in) :: scale  !! of coordinates and velocities
+        type(dop853_t) :: method
+        type(error_t), allocatable :: error
+        integer, parameter :: more = 100
+
+        call new_dop853(method)
+        method%tolerance = 1e-13_dp*min(1.0_dp, max(scale, 1e-3_dp))
+        method%points_a_step = 2
+        call method%prepare(self%system, error)
+        call method%start(self%system, self%t, self%q, self%v, t)
+        self%steps_left = self%steps_left + more
+        do while (method%t_new < t .and. self%steps_left > 0)
+            call method%step(self%system, error)
+            if (allocated(error)) exit
+            self%steps_left = self%steps_left - 1
+            call self%follow_inside(method, method%t_new)
+        end do
+        if (method%t_new < t) call self%add(ieee_value(t, ieee_quiet_nan))
+    end subroutine go_through
 
     subroutine follow_inside(self, method, t)
         !! The motion up to `t` inside the latest step of a method.

@@ -58,8 +58,9 @@ contains
             self%period = 2.0_dp*pi/sqrt(self%excess)
             self%small_period = self%period
         else
-            self%title = "exp(-gamma t) (x0 cosh(omega t) + (v0 + gamma x0)/omega "// &
-                         "sinh(omega t)), gamma = b/(2 m), omega^2 = gamma^2 - k/m"
+            self%title = "x0 exp(-gamma_1 t) + (v0 + gamma_1 x0)/omega exp(-gamma t) "// &
+                         "sinh(omega t), gamma = b/(2 m), omega^2 = gamma^2 - k/m, "// &
+                         "gamma_1 = k/(m (gamma + omega))"
             if (self%excess >= 0.0_dp) self%title = &
                 "exp(-gamma t) (x0 + (v0 + gamma x0) t), gamma = b/(2 m)"
         end if

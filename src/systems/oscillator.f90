@@ -108,6 +108,8 @@ contains
         !! What is otherwise with damping or a drive: Q, the equation, the motion without a drive.
         class(oscillator_t), intent(in) :: self
         type(description_t), intent(inout) :: d
+        real(dp), parameter :: rounding = 8.0_dp*epsilon(1.0_dp)
+        real(dp) :: excess
 
         if (self%b > 0.0_dp) d%dissipation = "b/2 x_dot^2"
         if (abs(self%drive_force) > 0.0_dp) then
@@ -119,10 +121,12 @@ contains
         d%generalised_forces = [character(formula_length) :: "Q_x = - b x_dot"]
         d%equations(1) = "m x_ddot + b x_dot + k x = 0"
         d%letters = [letter_t("gamma", "b/(2 m)"), letter_t("omega", "sqrt(k/m - gamma^2)")]
-        if (self%b**2 < 4.0_dp*self%m*self%k) then
+        excess = 4.0_dp*self%m*self%k - self%b**2
+        if (abs(excess) <= rounding*self%b**2) excess = 0.0_dp  ! m = 1, k = 0.01, b = 0.2
+        if (excess > 0.0_dp) then
             d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cos(omega t) + "// &
                         "(x_dot_0 + gamma x_0)/omega sin(omega t))"]
-        else if (self%b**2 > 4.0_dp*self%m*self%k) then
+        else if (excess < 0.0_dp) then
             ! with cosh it would cancel where gamma_1 is small beside gamma
             d%letters(2)%formula = "sqrt(gamma^2 - k/m)"
             d%letters = [d%letters, letter_t("gamma_1", "k/(m (gamma + omega))")]
