@@ -1009,10 +1009,26 @@ refuses 2 "not 'max(theta_dot)'; did you mean 'max theta_dot'?" sweep pendulum -
 refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over theta=0.1:3:5 --keep amplitude
 refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
-refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
+refuses 2 "--set l=2: this is a setting; write '--set pendulum%l=2'" run pendulum --set l=2
+refuses 2 "--set theta=1: this is a start; write '--set scene%q=1'" run pendulum --set theta=1
+refuses 2 "--set theta=0:1:5: this is an axis; write '--over theta=0:1:5'" sweep pendulum --set theta=0:1:5
+refuses 2 "method = verlet: verlet is for forces that depend on positions only" run skate --set scene%method=verlet
+refuses 2 "write --set 'scene%title=hello world'" run pendulum "title=hello world"
+refuses 2 "write '--set scene%q=0.7853981633974483'" run pendulum "theta=45 deg"
+refuses 5 "nosuch.nml: no such file" run nosuch.nml r=1
 refuses 2 "'y=1' is a start; write '--set scene%q=1'" run bouncing_ball y=1
 refuses 2 "l: '5x' is not a number; write it like 0.01" run pendulum --set pendulum%l=5x
 refuses 2 "sweep over what? '--over y=0.1:3:50', or over = 'y = 0.1:3:50'" sweep bouncing_ball --output "$work/none"
+refuses 2 "sweep over what? '--over m=0.1:3:50', or over = 'm = 0.1:3:50'" sweep pendulum_in_x_and_y --output "$work/none"
+run sweep pendulum_in_x_and_y --over m=0.1:3:50 --keep period --set scene%duration=3 --output "$work/o"
+check "sweep: the axis that is advised where constraints hold the coordinates can be swept" [ "$status" -eq 0 ]
+mkdir -p "$work/another"
+echo another >"$work/another/pendulum_sweep.dat.part"
+refuses 5 "is of another sweep" sweep pendulum --over theta=0:1:5 --keep period --output "$work/another"
+check "sweep: what another sweep has computed stays" grep -qx another "$work/another/pendulum_sweep.dat.part"
+cp data/scenes/pendulum.nml "$work/pendulum_with_a_long_name.nml"
+run run "$work/pendulum_with_a_long_name.nml" kepler --output "$work/o"
+check "run: a long name has a line of its own, and the columns stand" eval 'grep -qx "pendulum_with_a_long_name" "$work/out" && [ "$(grep -c " holds$" "$work/out")" = 2 ] && [ "$(grep "holds$" "$work/out" | awk "{ print length }" | sort -u | wc -l)" = 1 ]'
 refuses 2 "an axis of a sweep looks like 'y = 0.1:3:50'" sweep bouncing_ball --over y --keep y --output "$work/none"
 refuses 2 "the axis v needs FROM:TO:COUNT, as in 'v = 0.1:3:50'" sweep bouncing_ball --over v=1:2 --keep y --output "$work/none"
 refuses 2 "the axis y: an end is missing; write 'y = 0.1:3:50'" sweep bouncing_ball --over y=:2:3 --keep y --output "$work/none"
