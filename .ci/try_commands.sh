@@ -1007,7 +1007,7 @@ refuses 2 "a sweep cannot change 'length'; did you mean 'l'?" sweep pendulum --o
 refuses 2 "not 'Period'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep Period
 refuses 2 "not 'max(theta_dot)'; did you mean 'max theta_dot'?" sweep pendulum --over theta=0.1:3:5 --keep "max(theta_dot)"
 refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over theta=0.1:3:5 --keep amplitude
-refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
+refuses 2 "this is a setting; write '--set pendulum%l=2'" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
 refuses 2 "--set l=2: this is a setting; write '--set pendulum%l=2'" run pendulum --set l=2
 refuses 2 "--set theta=1: this is a start; write '--set scene%q=1'" run pendulum --set theta=1
@@ -1036,7 +1036,8 @@ refuses 2 "as in event = 'y = 0.5 rising' or event = 'y_dot falling stop'" run b
 refuses 2 "'first y = 0.5 rising', 'max COLUMN'" sweep bouncing_ball --over y=1:2:3 --keep first --output "$work/none"
 refuses 2 "only columns are kept, 'x' or 'wrapped x'" sweep ueda --set "sweep%strobe=2 pi" --keep period --output "$work/none"
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2
-refuses 2 "; the groups are scene, pendulum" run pendulum --set b=0.1
+refuses 2 "this is a setting; write '--set pendulum%b=0.1'" run pendulum --set b=0.1
+refuses 2 "; the groups are scene, atwood" --set b=0.1
 refuses 2 "it is a key of the scene: --set scene%dt=..." run pendulum --dt 0.01
 refuses 2 "period_of = θ: a coordinate is needed: theta" run pendulum --set scene%period_of=θ
 refuses 2 "'0;0': a number is needed; several have commas between them" modes double_pendulum --at '0;0'

@@ -349,9 +349,10 @@ contains
             if (command%name == "help") instead = "; 'lagrangia help "//arguments(1)%text// &
                 "' tells of its options"
             facts = look_at(word)
-            if (command%name == "compare" .and. (facts%found .or. is_one_of(word, taken))) &
-                instead = "; several scenes in one picture: "// &
-                "'lagrangia run "//arguments(1)%text//" "//word//" --plot --overlay'"
+            if (command%name == "compare" .and. (facts%found .or. is_one_of(word, taken))) then
+                instead = "; several scenes in one picture: 'lagrangia run "// &
+                          arguments(1)%text//" "//word//" --plot --overlay'"
+            end if
             call fail(error, name//" takes one argument, "//trim(command%arguments)// &
                       ", and "//quoted(word)//" is a second one"//instead)
         end associate

@@ -139,8 +139,9 @@ contains
             dropped = is_tolerance
         else
             if (any([(any(fixed == methods(i)%text), i=1, size(methods))])) dropped = is_step
-            if (any([(any(adaptive == methods(i)%text), i=1, size(methods))])) &
+            if (any([(any(adaptive == methods(i)%text), i=1, size(methods))])) then
                 dropped = dropped .or. is_tolerance
+            end if
         end if
         own = (steps .and. any(is_step .and. .not. dropped)) .or. &
               (adapts .and. any(is_tolerance .and. .not. dropped))
