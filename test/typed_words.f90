@@ -110,6 +110,11 @@ contains
         call refused("run pendulum l=$2", "'l=$2' is a setting; write --set 'pendulum%l=$2'")
         call refused("run pendulum title='$2'", "'title='$2'' is a setting; write --set "// &
                      """scene%title='\$2'""")
+        call refused("run pendulum --set tmax=5", "--set tmax=5: this is no setting; did you "// &
+                     "mean '--set scene%duration=5'?")
+        call refused("run pendulum durration=5", "'durration=5' is no setting; did you mean "// &
+                     "'--set scene%duration=5'?")
+        call taken("run pendulum --set scene=1")
         call taken("run nosuch.nml r=1")
         call taken("run nosuch --set r=1")
     end subroutine settings_are_typed

@@ -13,6 +13,7 @@ module lagrangia_setting_words
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, lower, to_text
     use lagrangia_typed_option, only: as_read, typed_option
+    use lagrangia_usual_keys, only: usual_key
     implicit none (type, external)
     private
     public :: setting_advice
@@ -132,6 +133,9 @@ contains
         if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), d%coordinates%name)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//typed_option("set", start_of("v", i, d)//value)
+        else if (starts_motion(command) .and. scene_key(key) /= "") then
+            text = "no setting; did you mean "//typed_option("set", "scene%"//scene_key(key)// &
+                                                             "="//value)//"?"
         else if (size(d%parameters) == 0) then
             text = "no setting of "//trim(d%name)//", which has no parameters"
         else
@@ -140,6 +144,15 @@ contains
                    trim(d%parameters(1)%name)//"=...'"
         end if
     end function advice_of
+
+    pure function scene_key(word) result(key)
+        !! The key of a scene that is meant, by another name or a slip; empty where it is none.
+        character(*), intent(in) :: word
+        character(:), allocatable :: key
+
+        key = usual_key(word)
+        if (key == "") key = nearest_name(word, keys)
+    end function scene_key
 
     pure function place_of(key, names) result(place)
         !! Of the name that the key is in whatever case; 0: there is none.

@@ -72,6 +72,7 @@ contains
             associate (word => settings(i)%text)
                 if (scan(word, "%.:=") == 0 .or. scan(word, "%.:=") < index(word, "=")) cycle
                 advice = setting_advice(command, word, arguments)
+                if (index(advice, "no setting of") == 1) cycle  ! the groups are said instead
                 if (advice /= "") call fail(error, "--set "//word//": this is "//advice)
             end associate
             if (allocated(error)) return
