@@ -365,6 +365,12 @@ run describe hanging_chain
 check "describe: a whole number" grep -q 'default 3;' "$work/out"
 
 # Small oscillations, the audit, the principles
+for moment in 1e9 3e9 1e10; do
+    run check symmetric_top --set "symmetric_top%I3=$moment"
+    check "check: a top of I3 = $moment kg m^2, what leaves no digit is not judged" eval '[ $status -eq 0 ] && grep -q "is not judged there" "$work/out"'
+done
+run modes cart_pendulum
+check "modes: a zero mode that is 0 has no bound" eval 'grep -q "zero mode$" "$work/out"'
 run modes cart_pendulum --set cart_pendulum%m1=2 --set cart_pendulum%m2=0.5 --set cart_pendulum%l=1.3 --json
 check "modes: a zero mode and (m1 + m2) g/(m1 l)" json 'd["omega2"][0] == 0 and d["label"][0] == "zero mode" and abs(d["omega2"][1]/(2.5*9.81/(2*1.3)) - 1) < 1e-14'
 run modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --json

@@ -164,7 +164,7 @@ def same_json(folder, words):
 LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hanging_chain", "--set", "hanging_chain%n=40"],
         ["modes", "hanging_chain", "--set", "hanging_chain%n=120", "--plot"],
         ["run", "pendulum", "--set", "scene%duration=4000", "--plot"], ["sweep", "lyapunov_map", "--set", "scene%duration=3000"],
-        ["bench", "sweep", "--quick"], ["report"], ["--plot"])
+        ["bench", "sweep"], ["report"], ["--plot"])
 with tempfile.TemporaryDirectory() as home:
     # The limit counts time of a processor, however many others have the machine.
     mute, _ = on_terminal(["-c", f"(ulimit -t {ENOUGH + LATE + 3:.0f}; exec yes >/dev/null)"], home, program="/bin/sh")

@@ -249,7 +249,7 @@ contains
         character(*), parameter :: times = "that is, times "
         real(dp), parameter :: alpha = 0.5_dp
         character(:), allocatable :: text
-        real(dp) :: a(2), value, size_of
+        real(dp) :: a(2), size_of
         integer :: cut
         logical :: ok
 

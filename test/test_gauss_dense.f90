@@ -39,7 +39,7 @@ contains
         real(dp), parameter :: h = 0.3_dp, small = 1e-13_dp
         real(dp) :: a(2*lanes, n), c(lanes + 2, n), f1(lanes, n), f2(lanes, n), m(lanes, 2*lanes)
         real(dp) :: m_v(lanes, 2*lanes), q(n), v(n), x(lanes), y(lanes, n), q_lane(lanes, n)
-        real(dp) :: both(lanes, 2, n), table(lanes, 2*lanes, 2), u(lanes, n)
+        real(dp) :: both(lanes, 2, n), table(lanes, 2*lanes, 2), u(lanes, n), weights(2*lanes)
         integer :: i
 
         a = numbers(2*lanes, n, 1.0_dp)
@@ -70,7 +70,8 @@ contains
             call assertEqual(0.0_dp, maxval(abs(both(:, i, :) - matmul(table(:, :lanes, i), f1) &
                              - matmul(table(:, lanes + 1:, i), f2))), small, "expand_both")
         end do
-        call assertEqual(dot_product(m(1, :), a(:, 1)), weighted_sum(m(1, :), a(:, 1)), small, &
+        weights = m(1, :)
+        call assertEqual(dot_product(weights, a(:, 1)), weighted_sum(weights, a(:, 1)), small, &
                          "weighted_sum")
     contains
         function moved(start, change) result(there)

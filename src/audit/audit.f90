@@ -18,6 +18,7 @@ module lagrangia_audit
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: euler_lagrange_t
+    use lagrangia_lapack, only: smallest_pivot
     use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_number_class, only: is_zero
@@ -109,10 +110,12 @@ contains
     subroutine say_unresolved(audit, unresolved)
         !! The audit says what it could not judge; no state at all is no audit.
         type(ledger_t), intent(inout) :: audit
-        type(unresolved_t), intent(in) :: unresolved
+        type(unresolved_t), intent(inout) :: unresolved
 
         if (audit%row_of(claim_accelerations) == 0) then
             call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
+            if (.not. allocated(unresolved%why)) unresolved%why = "at no state have the "// &
+                "accelerations a digit: given values and drawn ones are too many digits apart"
             call audit%say(claim_accelerations, unresolved%why)
         else
             call audit%say(claim_accelerations, "at "//to_text(unresolved%states)//" of "// &
@@ -201,6 +204,16 @@ contains
         call random%state(system, other_t, other_q, other_v, error)
         if (allocated(error)) return
         call new_nearby(nearby, system, values, t, q, v)
+        if (.not. all_free .and. system%constraints == 0) then
+            ! What is given may leave the sign of a pivot to rounding: I3 = 10^14 I1 of a top.
+            if (abs(smallest_pivot(nearby%terms(0)%mass)) <= 100*epsilon(1.0_dp)) then
+                unresolved%states = unresolved%states + 1
+                if (.not. allocated(unresolved%why)) call check_mass_matrix( &
+                    nearby%terms(0)%mass, unsolved)
+                if (allocated(unsolved)) unresolved%why = unsolved%message
+                return
+            end if
+        end if
         call solve_motion(nearby, motion, unsolved)
         if (allocated(unsolved)) then
             call say_why(nearby%terms(0), t, q, v, unsolved)

@@ -209,7 +209,8 @@ contains
                 row(96:) = short(relative(modes, j))
             end if
             row(105:) = labels(modes%label(j))
-            if (is_zero(modes%omega2(j)) .and. share > 0.0_dp) row(len_trim(row) + 1:) = &
+            if (is_zero(modes%omega2(j)) .and. &
+                share > 1e-24_dp*maxval(abs(modes%omega2))) row(len_trim(row) + 1:) = &
                 ", omega below "//short(sqrt(share))//" rad/s"
             call put_line(trim(row))
         end do

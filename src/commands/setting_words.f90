@@ -113,14 +113,17 @@ contains
         character(*), intent(in) :: key, value  !! in lower case; any word
         type(description_t), intent(in) :: d
         character(:), allocatable :: text
+        character(name_length), allocatable :: coordinates(:), parameters(:)
         integer :: i
 
+        coordinates = d%coordinates%name
+        parameters = d%parameters%name
         text = ""
-        if (place_of(key(:index(key//"(", "(") - 1), d%parameters%name) > 0) then
+        if (place_of(key(:index(key//"(", "(") - 1), parameters) > 0) then
             text = "a setting; write "//typed_option("set", trim(d%name)//"%"//key//"="//value)
             return
         end if
-        i = place_of(key, d%coordinates%name)
+        i = place_of(key, coordinates)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//typed_option("set", start_of("q", i, d)//value)
         else if (i > 0 .and. accepts(command, "at") .and. size(d%coordinates) == 1) then
@@ -130,7 +133,7 @@ contains
         end if
         if (text /= "") return
         i = 0
-        if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), d%coordinates%name)
+        if (index(key, "_dot") > 0) i = place_of(key(:index(key, "_dot") - 1), coordinates)
         if (i > 0 .and. starts_motion(command)) then
             text = "a start; write "//typed_option("set", start_of("v", i, d)//value)
         else if (starts_motion(command) .and. scene_key(key) /= "") then
@@ -140,7 +143,7 @@ contains
             text = "no setting of "//trim(d%name)//", which has no parameters"
         else
             text = "no setting of "//trim(d%name)//", whose parameters are "// &
-                   join(d%parameters%name, ", ")//"; write '--set "//trim(d%name)//"%"// &
+                   join(parameters, ", ")//"; write '--set "//trim(d%name)//"%"// &
                    trim(d%parameters(1)%name)//"=...'"
         end if
     end function advice_of

@@ -64,6 +64,7 @@ contains
         character(*), parameter :: inside = "abcdefghijklmnopqrstuvwxyz"// &
             "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"
         character(:), allocatable :: plain, said
+        logical, allocatable :: small(:)  ! statements that hold to first order
         integer :: i, k
 
         said = ""
@@ -104,8 +105,8 @@ contains
         end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
-        call find_determined(samples, result%of, homework%statements%small, result%equations, &
-                             result%determined)
+        small = homework%statements%small
+        call find_determined(samples, result%of, small, result%equations, result%determined)
     contains
         subroutine insist(name, line)
             !! The sheet with a name in its usual meaning, if that is better.

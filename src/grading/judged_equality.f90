@@ -214,9 +214,11 @@ contains
             judged = .true.
         else
             call holds(judgement%residual, values, right_one, judged)
-            if (right_one .and. is_rate_of_nothing(left, right, samples)) then
-                values = off_motion(samples)
-                call holds(judgement%residual, values, right_one, judged)
+            if (right_one) then
+                if (is_rate_of_nothing(left, right, samples)) then
+                    values = off_motion(samples)
+                    call holds(judgement%residual, values, right_one, judged)
+                end if
             end if
         end if
         if (is_motion(left, right, samples)) then

@@ -203,7 +203,8 @@ contains
                             if (k == node%which .or. &
                                 expression%depends_on(k) .neqv. pass == 1) cycle
                             if (.not. exchangeable(node%which, k, samples)) cycle
-                            if (is_always_zero(k) .or. is_left_side(k)) cycle
+                            if (is_always_zero(k)) cycle
+                            if (is_left_side(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
                                    "'"//context(expression, samples, i)
@@ -384,16 +385,13 @@ contains
                     if (samples%role(k) > role_parameter .or. is_always_zero(k)) cycle
                     if (expression%depends_on(k) .neqv. n <= expression%count) cycle
                     if (mends(change_t(change_multiplied, i, k))) then
-                        text = node_text(i)//" lacks the factor '"// &
-                            trim(samples%symbols%names(k))//"'"
-                    else if (expression%depends_on(k) .and. &
-                             mends(change_t(change_divided, i, k))) then
-                        text = node_text(i)//" has the factor '"//trim(samples%symbols%names(k))// &
-                               "' too many"
+                        text = " lacks the factor '"//trim(samples%symbols%names(k))//"'"
                     else
-                        cycle
+                        if (.not. expression%depends_on(k)) cycle
+                        if (.not. mends(change_t(change_divided, i, k))) cycle
+                        text = " has the factor '"//trim(samples%symbols%names(k))//"' too many"
                     end if
-                    text = text//context(expression, samples, i)
+                    text = node_text(i)//text//context(expression, samples, i)
                     return
                 end do
             end do

@@ -247,8 +247,9 @@ contains
             type(hyperdual_t), allocatable :: r(:, :), x(:), f(:)
             type(hyperdual_t) :: moved(size(q))
             type(description_t) :: d
-            real(dp), allocatable :: slopes(:, :), ways(:, :)
+            real(dp), allocatable :: places(:), slopes(:, :), ways(:, :)
             logical :: allowed(size(q))
+            integer, allocatable :: columns(:)  ! of the ways that are possible
             integer :: i, k, n, possible
 
             call system%describe(d)
@@ -261,16 +262,18 @@ contains
                 call system%positions(hyperdual(0.4_dp), moved, r)
                 ways(:, i) = reshape(r%d1, [n])
             end do
+            places = reshape(r%re, [n])
             do i = 1, n
-                x = hyperdual(reshape(r%re, [n]))
+                x = hyperdual(places)
                 x(i)%d1 = 1.0_dp
                 call stated(name, x, f)
                 slopes(:, i) = f%d1
             end do
             allowed = maxval(abs(matmul(slopes, ways)), 1) <= rounding
             call matrix_rank(slopes, k, error)
-            if (.not. allocated(error)) call matrix_rank(ways(:, pack([(i, i=1, size(q))], &
-                                                         allowed)), possible, error)
+            columns = pack([(i, i=1, size(q))], allowed)
+            ways = ways(:, columns)
+            if (.not. allocated(error)) call matrix_rank(ways, possible, error)
             if (allocated(error)) return
             call report%equal(name//": "//to_text(n)//" - "//to_text(k), real(n - k, dp), &
                               real(possible, dp), 0.0_dp)

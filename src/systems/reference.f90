@@ -1,13 +1,12 @@
 module lagrangia_reference
     !! The contract of a closed form: what a trajectory must be.
-    use lagrangia_description, only: line_length
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: reference_t
 
     type, abstract :: reference_t
-        character(line_length) :: title = ""  !! which closed form, and its source
+        character(200) :: title = ""  !! which closed form, and its source
         integer :: ndof = 0
         logical :: has_state = .true.      !! `state_at` is known; otherwise only the period
         real(dp) :: period = 0.0_dp        !! s; 0 where none is known
