@@ -187,6 +187,32 @@ refuses 2 "start 'x': " compare pendulum --starts "1 x" --output "$work/none"
 refuses 2 "unknown method ''" compare pendulum --methods rk4,,verlet --output "$work/none"
 run compare pendulum --starts "1  2" --quiet --output "$work/doubled"
 check "compare: blanks between two starts count once" eval '[ $status -eq 0 ] && [ "$(ls "$work/doubled" | grep -c "dat$")" = 2 ]'
+refuses 2 "start '-1': violates the constraint" compare bouncing_ball --starts "-1 2" --output "$work/none"
+rm -f "$work/not_again"
+for scene in pendulum kepler double_pendulum skate pendulum_turning; do
+    run compare $scene --methods rk4,dop853 --format csv --quiet --output "$work/again/csv"
+    [ "$status" -eq 0 ] || echo "$scene" >>"$work/not_again"
+    run compare $scene --methods rk4,dop853 --quiet --output "$work/again"
+    for method in rk4 dop853; do
+        sed -n "s/^# //p" "$work/again/${scene}_$method.dat" | sed -n "/^ *&/,/^ *\/$/p" >"$work/again/${scene}_$method.nml"
+        for file in "$work/again/csv/${scene}_$method.csv.nml" "$work/again/${scene}_$method.nml"; do
+            run run "$file" --quiet --output "$work/again/again"
+            [ "$status" -eq 0 ] && cmp -s <(grep -v "^#" "$work/again/${scene}_$method.dat") <(grep -v "^#" "$work/again/again/${scene}_$method.dat") || echo "$file" >>"$work/not_again"
+        done
+    done
+done
+check "compare: what it writes can be run again, and gives the same rows" [ ! -e "$work/not_again" ]
+run compare bouncing_ball --methods rk4,gauss16 --json --output "$work/again"
+check "compare: energy that impacts take is no drift, and the error is that beside the closed form" json 'all(e["error"] < 1e-12 and not any("energy" in k for k in e.get("drifts", {})) for e in d)'
+run compare pendulum --methods dop853,gauss16 --set scene%tolerance=1e-8 --output "$work/again"
+check "compare: a tolerance for methods that the scene's own is not one of" eval '[ $status -eq 0 ] && [ "$(grep -c "tolerance 1e-8 " "$work/out")" -eq 2 ]'
+run compare pendulum_turning --methods rk4,verlet --set scene%dt=0.01 --output "$work/again"
+check "compare: a step where the scene has a tolerance" eval '[ $status -eq 0 ] && [ "$(grep -c "dt = 0.01 s " "$work/out")" -eq 2 ]'
+run compare pendulum --methods rk4,dop853 --set scene%tolerance=1e-8 --set scene%dt=0.01 --output "$work/again"
+check "compare: each method takes of a step and a tolerance what it can" eval '[ $status -eq 0 ] && grep -q "rk4, dt = 0.01 s" "$work/out" && grep -q "dop853, tolerance 1e-8" "$work/out"'
+refuses 2 "method 'rk4' takes steps of dt" compare pendulum --methods rk4,verlet --set scene%tolerance=1e-8 --output "$work/none"
+run compare double_pendulum_section --methods rk4,gauss16 --output "$work/again"
+check "compare: samples far apart are no steps" eval '[ $status -eq 0 ] && grep -q "rk4, dt = 0.01 s" "$work/out"'
 refuses 2 "unknown picture format 'bmp'; there are png, svg, pdf" compare pendulum --methods rk4,verlet --plot=bmp --output "$work/none"
 refuses 2 "--overlay: two scenes at least are needed" run pendulum --overlay --output "$work/none"
 refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output=overlay --output "$work/none"
@@ -987,12 +1013,28 @@ refuses 2 "a sweep cannot change 'length'; did you mean 'l'?" sweep pendulum --o
 refuses 2 "not 'Period'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep Period
 refuses 2 "not 'max(theta_dot)'; did you mean 'max theta_dot'?" sweep pendulum --over theta=0.1:3:5 --keep "max(theta_dot)"
 refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over theta=0.1:3:5 --keep amplitude
-refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
+refuses 2 "this is a setting; write '--set pendulum%l=2'" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
-refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
+refuses 2 "--set l=2: this is a setting; write '--set pendulum%l=2'" run pendulum --set l=2
+refuses 2 "--set theta=1: this is a start; write '--set scene%q=1'" run pendulum --set theta=1
+refuses 2 "--set theta=0:1:5: this is an axis; write '--over theta=0:1:5'" sweep pendulum --set theta=0:1:5
+refuses 2 "method = verlet: verlet is for forces that depend on positions only" run skate --set scene%method=verlet
+refuses 2 "write --set 'scene%title=hello world'" run pendulum "title=hello world"
+refuses 2 "write '--set scene%q=0.7853981633974483'" run pendulum "theta=45 deg"
+refuses 5 "nosuch.nml: no such file" run nosuch.nml r=1
 refuses 2 "'y=1' is a start; write '--set scene%q=1'" run bouncing_ball y=1
 refuses 2 "l: '5x' is not a number; write it like 0.01" run pendulum --set pendulum%l=5x
 refuses 2 "sweep over what? '--over y=0.1:3:50', or over = 'y = 0.1:3:50'" sweep bouncing_ball --output "$work/none"
+refuses 2 "sweep over what? '--over m=0.1:3:50', or over = 'm = 0.1:3:50'" sweep pendulum_in_x_and_y --output "$work/none"
+run sweep pendulum_in_x_and_y --over m=0.1:3:50 --keep period --set scene%duration=3 --output "$work/o"
+check "sweep: the axis that is advised where constraints hold the coordinates can be swept" [ "$status" -eq 0 ]
+mkdir -p "$work/another"
+echo another >"$work/another/pendulum_sweep.dat.part"
+refuses 5 "is of another sweep" sweep pendulum --over theta=0:1:5 --keep period --output "$work/another"
+check "sweep: what another sweep has computed stays" grep -qx another "$work/another/pendulum_sweep.dat.part"
+cp data/scenes/pendulum.nml "$work/pendulum_with_a_long_name.nml"
+run run "$work/pendulum_with_a_long_name.nml" kepler --output "$work/o"
+check "run: a long name has a line of its own, and the columns stand" eval 'grep -qx "pendulum_with_a_long_name" "$work/out" && [ "$(grep -c " holds$" "$work/out")" = 2 ] && [ "$(grep "holds$" "$work/out" | awk "{ print length }" | sort -u | wc -l)" = 1 ]'
 refuses 2 "an axis of a sweep looks like 'y = 0.1:3:50'" sweep bouncing_ball --over y --keep y --output "$work/none"
 refuses 2 "the axis v needs FROM:TO:COUNT, as in 'v = 0.1:3:50'" sweep bouncing_ball --over v=1:2 --keep y --output "$work/none"
 refuses 2 "the axis y: an end is missing; write 'y = 0.1:3:50'" sweep bouncing_ball --over y=:2:3 --keep y --output "$work/none"
@@ -1000,7 +1042,8 @@ refuses 2 "as in event = 'y = 0.5 rising' or event = 'y_dot falling stop'" run b
 refuses 2 "'first y = 0.5 rising', 'max COLUMN'" sweep bouncing_ball --over y=1:2:3 --keep first --output "$work/none"
 refuses 2 "only columns are kept, 'x' or 'wrapped x'" sweep ueda --set "sweep%strobe=2 pi" --keep period --output "$work/none"
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2
-refuses 2 "; the groups are scene, pendulum" run pendulum --set b=0.1
+refuses 2 "this is a setting; write '--set pendulum%b=0.1'" run pendulum --set b=0.1
+refuses 2 "; the groups are scene, atwood" --set b=0.1
 refuses 2 "it is a key of the scene: --set scene%dt=..." run pendulum --dt 0.01
 refuses 2 "period_of = θ: a coordinate is needed: theta" run pendulum --set scene%period_of=θ
 refuses 2 "'0;0': a number is needed; several have commas between them" modes double_pendulum --at '0;0'

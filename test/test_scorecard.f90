@@ -113,6 +113,12 @@ contains
         row = scorecard_row(outcome)
         call assertEqual(index(head, "error") + 1, index(row, "5.0E-01 estimate "), "a long name")
         call assertEqual("-", row(index(head, "verdict"):), row)
+        outcome%scene = repeat("a", 24)
+        row = scorecard_row(outcome)
+        call assertEqual(outcome%scene//" gauss16", row(:32))
+        outcome%scene = repeat("a", 25)
+        row = scorecard_row(outcome)
+        call assertEqual(outcome%scene//lf//repeat(" ", 25)//"gauss16", row(:58))
     end subroutine rows_stand_under_their_titles
 
     subroutine rows_say_where_an_error_is_from()

@@ -2,9 +2,9 @@ module test_wrong_words
     !! Arguments that a command does not take get told what they are, or where they go; keys and
     !! columns by other names, and texts of a scene without quotes, how they are written.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_command_line, only: command_line_t, parse_words, word_t
-    use lagrangia_errors, only: error_t, status_usage
-    use lagrangia_registry, only: check_line, commands, options
+    use lagrangia_command_line, only: word_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_registry, only: commands
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: keys
@@ -13,8 +13,9 @@ module test_wrong_words
     use lagrangia_text, only: to_text
     use lagrangia_usual_keys, only: usual_key, usual_names
     use lagrangia_vocabulary, only: words_of
-    use lagrangia_wrong_words, only: check_arguments
     use stated_text, only: is_said
+    use typed_words, only: methods_go_behind_theirs, numbers_are_as_they_are_read, refused, &
+                           settings_are_typed, taken, values_stand_behind_options
     implicit none (type, external)
     private
     public :: wrong_words_suite
@@ -33,6 +34,11 @@ contains
         call suite%addTest(TestMethod("names_go_elsewhere", names_go_elsewhere))
         call suite%addTest(TestMethod("options_stand_behind_hyphens", &
                                       options_stand_behind_hyphens))
+        call suite%addTest(TestMethod("values_stand_behind_options", values_stand_behind_options))
+        call suite%addTest(TestMethod("methods_go_behind_theirs", methods_go_behind_theirs))
+        call suite%addTest(TestMethod("settings_are_typed", settings_are_typed))
+        call suite%addTest(TestMethod("numbers_are_as_they_are_read", &
+                                      numbers_are_as_they_are_read))
         call suite%addTest(TestMethod("other_programs_names", other_programs_names))
         call suite%addTest(TestMethod("formulas_need_quotes", formulas_need_quotes))
         call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
@@ -44,46 +50,6 @@ contains
         call suite%addTest(TestMethod("one_argument_is_enough", one_argument_is_enough))
         call suite%addTest(TestMethod("good_words_pass", good_words_pass))
     end function wrong_words_suite
-
-    subroutine check(text, error)
-        !! What is said of the words of `text`.
-        character(*), intent(in) :: text
-        type(error_t), allocatable, intent(out) :: error
-        type(command_line_t) :: line
-        type(word_t), allocatable :: words(:)
-        integer :: first, i, which
-
-        allocate (words(count([(text(i:i) == " ", i=1, len(text))]) + 1))
-        first = 1
-        do i = 1, size(words)
-            words(i)%text = text(first:first + index(text(first:)//" ", " ") - 2)
-            first = first + len(words(i)%text) + 1
-        end do
-        call parse_words(words, options, line, error)
-        if (.not. allocated(error)) call check_line(line, which, error)
-        if (.not. allocated(error)) call check_arguments(commands(which), line%arguments, error)
-    end subroutine check
-
-    subroutine refused(text, message)
-        !! Assert that the words of `text` are refused so.
-        character(*), intent(in) :: text, message
-        type(error_t), allocatable :: error
-
-        call check(text, error)
-        call assertTrue(allocated(error), "refused: "//text)
-        if (.not. allocated(error)) return
-        call assertEqual(message, error%message)
-        call assertEqual(status_usage, error%status)
-    end subroutine refused
-
-    subroutine taken(text)
-        !! Assert that the words of `text` pass.
-        character(*), intent(in) :: text
-        type(error_t), allocatable :: error
-
-        call check(text, error)
-        call assertFalse(allocated(error), "taken: "//text)
-    end subroutine taken
 
     subroutine two_words_are_a_name()
         !! With a blank where the name has a hyphen or a low line.

@@ -18,7 +18,8 @@ module lagrangia_compare
     use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_output_options, only: is_told, show_picture, take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, compare_methods, compare_starts, &
-                                 most_coordinates, overlay_path, run_name, write_overlay
+                                 most_coordinates, overlay_path, overrides_for, run_name, &
+                                 write_overlay
     use lagrangia_places, only: places_t
     use lagrangia_printed_table, only: cell_t, count_cell, number_cell, printed_table_t, &
                                        word_cell
@@ -153,7 +154,7 @@ contains
         if (allocated(error)) return
         allocate (runs(size(words)))
         do i = 1, size(words)
-            call plan_run(line, path, words(i)%text, i, runs(i), name, error)
+            call plan_run(line, path, words, i, runs(i), name, error)
             if (.not. allocated(error) .and. i == 1) call claim_scene(runs(1)%plan%scene, places, &
                                                                       error)
             if (.not. allocated(error)) call claim_files(runs(i)%plan%scene, runs(i)%plan%system, &
@@ -167,10 +168,11 @@ contains
             film_path(overlay_path(folder, name)), error)
     end subroutine plan_runs
 
-    subroutine plan_run(line, path, word, number, run, name, error)
+    subroutine plan_run(line, path, words, number, run, name, error)
         !! One run: of a method, or from a start.
         type(command_line_t), intent(in) :: line
-        character(*), intent(in) :: path, word
+        character(*), intent(in) :: path
+        type(word_t), intent(in) :: words(:)  !! of all runs
         integer, intent(in) :: number
         type(compared_t), intent(out) :: run
         character(:), allocatable, intent(out) :: name
@@ -179,8 +181,14 @@ contains
         class(system_t), allocatable :: system
         type(description_t) :: d
         type(scene_t) :: scene
+        character(:), allocatable :: word
 
-        call overrides_of(line, word, overrides)
+        word = words(number)%text
+        if (line%has("methods")) then
+            call overrides_for(line%values_of("set"), words, word, overrides)
+        else
+            call overrides_of(line, word, overrides)
+        end if
         call read_scene(path, overrides, scene, system, error)
         if (allocated(error)) then
             if (line%has("starts")) call error%add_context("start "//quoted(word))
@@ -198,7 +206,9 @@ contains
         if (allocated(error)) return
         call new_run_plan(run%plan, scene, system, error)
         if (allocated(error)) then
-            call error%add_context(quoted(word))
+            if (line%has("starts")) word = "start "//quoted(word)
+            if (line%has("methods")) word = quoted(word)
+            call error%add_context(word)
             return
         end if
         run%name%text = word
@@ -206,7 +216,7 @@ contains
     end subroutine plan_run
 
     pure subroutine overrides_of(line, word, overrides)
-        !! Those of `--set`, and the start `Q1,Q2[:V1,V2]`.
+        !! Those of `--set`, and those of the start `Q1,Q2[:V1,V2]`.
         type(command_line_t), intent(in) :: line
         character(*), intent(in) :: word
         type(word_t), allocatable, intent(out) :: overrides(:)
@@ -217,9 +227,8 @@ contains
         given = line%values_of("set")
         n = size(given)
         colon = index(word, ":")
-        allocate (overrides(n + merge(0, merge(2, 1, colon > 0), line%has("methods"))))
+        allocate (overrides(n + merge(2, 1, colon > 0)))
         overrides(:n) = given
-        if (line%has("methods")) return
         if (colon == 0) colon = len(word) + 1
         overrides(n + 1)%text = "scene%q="//word(:colon - 1)
         if (colon <= len(word)) overrides(n + 2)%text = "scene%v="//word(colon + 1:)

@@ -1,9 +1,13 @@
 module lagrangia_option_words
-    !! Words that belong to an option but stand alone: `gif` behind `--plot`, `csv`, `help plot`.
+    !! Words that belong to an option but stand alone: `gif` behind `--plot`, `csv`, `keep=period`,
+    !! `help plot`.
+    use lagrangia_command_line, only: may_have_value, no_value
     use lagrangia_data_files, only: formats, picture_advice, pictures
     use lagrangia_number_reader, only: starts_number
     use lagrangia_registry, only: accepts, command_t, options, told, usage
+    use lagrangia_scene_keys, only: keys
     use lagrangia_text, only: lower
+    use lagrangia_typed_option, only: typed_option
     implicit none (type, external)
     private
     public :: option_advice
@@ -25,6 +29,8 @@ contains
             do i = 1, size(options)
                 if (small == options(i)%name) text = "an option, "//told(options(i)%name)
             end do
+        else if (index(word, "=") > 1) then
+            text = value_advice(command, small(:index(word, "=") - 1), word(index(word, "=") + 1:))
         else if (accepts(command, "plot") .and. any(pictures == small)) then
             text = "a format of pictures; write '--plot="//small//"'"
         else if (accepts(command, "plot") .and. picture_advice(small) /= "") then
@@ -43,4 +49,27 @@ contains
             end do
         end if
     end function option_advice
+
+    pure function value_advice(command, name, value) result(text)
+        !! Of `name=value`, where that is an option of the command, and no key of a scene or a value
+        !! that only the option has: `plot=png`.
+        type(command_t), intent(in) :: command
+        character(*), intent(in) :: name, value  !! in lower case; any word
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        if (.not. accepts(command, name)) return
+        i = findloc(options%name == name, .true., 1)
+        if (any(keys == name) .and. accepts(command, "set") .and. &
+            index("|"//trim(options(i)%value)//"|", "|"//lower(value)//"|") == 0) return
+        select case (options(i)%takes)
+        case (no_value)
+            text = "an option, which takes no value: --"//name
+        case (may_have_value)
+            text = "an option; write "//typed_option(name//"=", value)
+        case default
+            text = "an option; write "//typed_option(name, value)
+        end select
+    end function value_advice
 end module lagrangia_option_words

@@ -99,7 +99,7 @@ contains
         call check_line(line, which, error)
         if (allocated(error)) return
         if (.not. (line%has("help") .or. line%has("version"))) call check_arguments( &
-            commands(which), line%arguments, error)
+            commands(which), line%arguments, line%values_of("set"), error)
         if (allocated(error)) return
         call catch_interrupts(c_funloc(give_up))
         if (.not. (line%has("json") .or. line%has("latex"))) call fold_lines()

@@ -108,7 +108,7 @@ contains
             if (json) then
                 call put_line(json_line(outcome_json(outcome), i < size(chosen)))
             else if (.not. quiet) then
-                call put_line(scorecard_row(outcome))
+                call put_lines(scorecard_row(outcome)//new_line("a"))
                 call scorecard_lines(outcome, line%command /= "", lines)
                 do k = 1, size(lines)
                     call put_line(lines(k)%text)

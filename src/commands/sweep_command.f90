@@ -77,7 +77,7 @@ contains
         if (.not. allocated(error)) call read_unchanged(scene, file)
         if (.not. allocated(error)) then
             call system%describe(d)
-            call take_options(line, trim(d%coordinates(1)%name), scene, error)
+            call take_options(line, axis_example(scene, system, d), scene, error)
         end if
         if (.not. allocated(error)) call make_own_sweep(scene, file, line%values_of("set"), &
                                                         (d%parameters%name))
@@ -201,10 +201,33 @@ contains
         if (warning /= "" .and. .not. quiet) call note(warning)
     end subroutine check_size
 
-    subroutine take_options(line, coordinate, scene, error)
+    pure function axis_example(scene, system, d) result(name)
+        !! What `--over NAME=0.1:3:50` may change: a coordinate that no constraint holds there, or
+        !! else a parameter.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d  !! of the system
+        character(:), allocatable :: name
+        type(error_t), allocatable :: held
+        real(dp) :: q(system%ndof)
+        integer :: i
+
+        do i = 1, system%ndof
+            name = trim(d%coordinates(i)%name)
+            q = scene%q
+            q(i) = 0.1_dp
+            call system%check_places(scene%t0, q, held)
+            q(i) = 3.0_dp
+            if (.not. allocated(held)) call system%check_places(scene%t0, q, held)
+            if (.not. allocated(held)) return
+        end do
+        if (size(d%parameters) > 0) name = trim(d%parameters(1)%name)
+    end function axis_example
+
+    subroutine take_options(line, example, scene, error)
         !! What the command line says in the place of `&sweep`.
         type(command_line_t), intent(in) :: line
-        character(*), intent(in) :: coordinate  !! one of the system, for remedies
+        character(*), intent(in) :: example  !! of an axis, for remedies
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
 
@@ -216,8 +239,8 @@ contains
                                                    scene%sweep%threads)
         if (allocated(error)) return
         if (size(scene%sweep%over) == 0) then
-            call fail(error, "sweep over what? '--over "//coordinate//"=0.1:3:50', or over = '"// &
-                      coordinate//" = 0.1:3:50' in the group &sweep of the scene")
+            call fail(error, "sweep over what? '--over "//example//"=0.1:3:50', or over = '"// &
+                      example//" = 0.1:3:50' in the group &sweep of the scene")
         else if (size(scene%sweep%keep) == 0) then
             call fail(error, "keep what of each trajectory? '--keep period', a column, "// &
                       "'--keep ""max COLUMN""'; or keep = 'period' in the group &sweep of "// &

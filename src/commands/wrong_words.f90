@@ -34,11 +34,12 @@ module lagrangia_wrong_words
 
 contains
 
-    subroutine check_arguments(command, arguments, error)
+    subroutine check_arguments(command, arguments, settings, error)
         !! Refuse what the command can do nothing with, and say what to type. What is not known
         !! here passes: the command itself has the last word.
         type(command_t), intent(in) :: command            !! of `commands`
         type(word_t), intent(in) :: arguments(:)          !! of it, as typed
+        type(word_t), intent(in) :: settings(:)           !! what is behind each `--set`
         type(error_t), allocatable, intent(out) :: error  !! allocated where one is refused
         type(word_t), allocatable :: taken(:)
         integer :: i
@@ -52,9 +53,31 @@ contains
             call explain(command, arguments(i)%text, arguments, taken, error)
             if (allocated(error)) return
         end do
-        if (command%most < 0 .or. size(arguments) <= command%most) return
-        call refuse_more(command, arguments, error)
+        if (command%most >= 0 .and. size(arguments) > command%most) then
+            call refuse_more(command, arguments, taken, error)
+        else if (size(arguments) > 0) then
+            call check_settings(command, arguments, settings, error)
+        end if
     end subroutine check_arguments
+
+    subroutine check_settings(command, arguments, settings, error)
+        !! Refuse `--set theta=1`, which names no group.
+        type(command_t), intent(in) :: command
+        type(word_t), intent(in) :: arguments(:), settings(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: advice
+        integer :: i
+
+        do i = 1, size(settings)
+            associate (word => settings(i)%text)
+                if (scan(word, "%.:=") == 0 .or. scan(word, "%.:=") < index(word, "=")) cycle
+                advice = setting_advice(command, word, arguments)
+                if (index(advice, "no setting of") == 1) cycle  ! the groups are said instead
+                if (advice /= "") call fail(error, "--set "//word//": this is "//advice)
+            end associate
+            if (allocated(error)) return
+        end do
+    end subroutine check_settings
 
     subroutine words_taken(command, words)
         !! All words that its arguments may be, also the scenes of the working folder; those of
@@ -178,7 +201,6 @@ contains
         do i = 1, size(lists)
             if (all(lower(word) /= [character(13) :: lists(i)%name, &
                                     trim(lists(i)%name)//"s"])) cycle
-            if (command%name == "list" .and. index(lists(i)%command, "list") == 1) exit
             if (is_one_of(word//"s", taken)) then
                 call fail(error, quoted(word)//" is no name; did you mean '"//word//"s'?")
             else
@@ -187,8 +209,8 @@ contains
             end if
             return
         end do
-        advice = setting_advice(command, word, arguments)
-        if (advice == "") advice = option_advice(command, word)
+        advice = option_advice(command, word)
+        if (advice == "") advice = setting_advice(command, word, arguments)
         if (advice /= "") then
             call fail(error, quoted(word)//" is "//advice)
         else if (command%name /= "show") then
@@ -233,12 +255,18 @@ contains
         small = lower(word)
         call words_of("contestants", words)
         if (any(keys == small)) meaning = "a key of a scene; 'lagrangia describe scene' tells of it"
-        if (is_one_of(small, words)) meaning = method_advice(command, small)
+        if (are_all_of(small, words)) meaning = method_advice(command, small)
         do i = size(kinds, 2), 1, -1
             call words_of(trim(kinds(1, i)), words)
-            if (is_one_of(small, words) .and. commands_name(i) /= command%name) meaning = "a "// &
-                trim(kinds(2, i))//"; 'lagrangia "//trim(kinds(3, i))//" "//small//"' goes with it"
+            if (.not. is_one_of(small, words) .or. commands_name(i) == command%name) cycle
+            meaning = "a "//trim(kinds(2, i))//"; 'lagrangia "//trim(kinds(3, i))//" "//small// &
+                      "' goes with it"
+            if (accepts(command, "systems") .and. i <= 2) meaning = "a "//trim(kinds(2, i))// &
+                "; write '--systems "//small//"'"
         end do
+        call words_of("problems", words)
+        if (accepts(command, "problems") .and. is_one_of(word, words)) meaning = "a problem; "// &
+            "write '--problems "//word//"'"
         call words_of("commands", words)
         if (is_one_of(small, words)) meaning = "a command; 'lagrangia help "//small// &
             "' tells of it"
@@ -255,6 +283,21 @@ contains
         end function commands_name
     end subroutine explain_name
 
+    pure function are_all_of(text, words) result(yes)
+        !! A word, or several with commas between them, each of which is one of `words`.
+        character(*), intent(in) :: text
+        type(word_t), intent(in) :: words(:)
+        logical :: yes
+        character(:), allocatable :: rest
+
+        rest = trim(text)//","
+        yes = rest /= ","
+        do while (yes .and. rest /= "")
+            yes = is_one_of(rest(:index(rest, ",") - 1), words)
+            rest = rest(index(rest, ",") + 1:)
+        end do
+    end function are_all_of
+
     pure function method_advice(command, word) result(text)
         !! How the command takes a method.
         type(command_t), intent(in) :: command
@@ -262,8 +305,15 @@ contains
         character(:), allocatable :: text
 
         text = "a method; 'lagrangia list methods' tells of it"
-        if (accepts(command, "methods")) then
-            text = "a method; write '--methods "//word//",...'"
+        if (index(word, ",") > 0) then
+            text = "a list of methods; 'lagrangia compare SCENE --methods "//word//"' compares them"
+            if (accepts(command, "methods")) text = "a list of methods; write '--methods "// &
+                word//"'"
+        else if (command%name == "compare") then
+            text = "a method; another one is compared with it: '--methods "//word//","// &
+                   trim(merge("gauss16", "rk4    ", word == "rk4"))//"'"
+        else if (accepts(command, "methods")) then
+            text = "a method; write '--methods "//word//"'"
         else if (command%name == "check") then
             text = "a method; 'lagrangia check methods' measures the orders of all"
         else if (any(command%name == ["run  ", "sweep"])) then
@@ -282,12 +332,13 @@ contains
                trim(command%name)//"' takes"
     end function taken_instead
 
-    pure subroutine refuse_more(command, arguments, error)
+    subroutine refuse_more(command, arguments, taken, error)
         !! There are more arguments than it takes.
         type(command_t), intent(in) :: command
-        type(word_t), intent(in) :: arguments(:)
+        type(word_t), intent(in) :: arguments(:), taken(:)
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: instead, name
+        type(facts_t) :: facts
 
         name = "'"//trim("lagrangia "//command%name)//"'"
         associate (word => arguments(command%most + 1)%text)
@@ -298,8 +349,11 @@ contains
             instead = ""
             if (command%name == "help") instead = "; 'lagrangia help "//arguments(1)%text// &
                 "' tells of its options"
-            if (command%name == "compare") instead = "; several scenes in one picture: "// &
-                "'lagrangia run "//arguments(1)%text//" "//word//" --plot --overlay'"
+            facts = look_at(word)
+            if (command%name == "compare" .and. (facts%found .or. is_one_of(word, taken))) then
+                instead = "; several scenes in one picture: 'lagrangia run "// &
+                          arguments(1)%text//" "//word//" --plot --overlay'"
+            end if
             call fail(error, name//" takes one argument, "//trim(command%arguments)// &
                       ", and "//quoted(word)//" is a second one"//instead)
         end associate

@@ -174,8 +174,11 @@ contains
             call fail(error, "'"//part_name(path, image)//"' is not a file that a sweep has "// &
                       "written", status_file)
         else if (facts%found .and. .not. resume) then
-            call fail(error, "'"//part_name(path, image)//"' is what an interrupted sweep has "// &
-                      "computed: '--resume' goes on with it; remove it to begin anew", status_file)
+            call store%take_parts(error)  ! another sweep's cannot be resumed
+            store%there = 0
+            if (.not. allocated(error)) call fail(error, "'"//part_name(path, image)//"' is "// &
+                "what an interrupted sweep has computed: '--resume' goes on with it; remove it "// &
+                "to begin anew", status_file)
         else if (resume .and. image == 1 .and. .not. facts%found) then
             call fail(error, "there is nothing to resume: no file '"//part_name(path, image)//"'", &
                       status_file)

@@ -3,6 +3,7 @@ module lagrangia_overlay
     !! runs of a comparison are.
     use lagrangia_changed_scene, only: ending_start
     use lagrangia_columns, only: column_names
+    use lagrangia_command_line, only: word_t
     use lagrangia_data_files, only: data_path, script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
@@ -16,14 +17,17 @@ module lagrangia_overlay
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: lower
     implicit none (type, external)
     private
     public :: add_to_overlay, common_panels, compare_methods, compare_starts, most_coordinates, &
-              overlay_path, run_name, write_overlay
+              overlay_path, overrides_for, run_name, write_overlay
 
     integer, parameter :: most_coordinates = 3  !! with a panel each
     integer, parameter :: most_panels = 6
     real(dp), parameter :: usual_tolerance = 1e-10_dp
+    real(dp), parameter :: longest_step = 0.01_dp     !! s, that is taken where none is given
+    integer(i8), parameter :: most_steps = 1000000_i8  !! that are taken for it
 
 contains
 
@@ -49,7 +53,7 @@ contains
     subroutine compare_methods(scene, system, method, error)
         !! Make `scene` one of a comparison: by that method, with columns for its motion, a drift
         !! and the error, unjudged. A method that needs a tolerance where the scene has a step gets
-        !! one, and a step where it has a tolerance: that between two samples.
+        !! one, and a step where it has a tolerance: that between two samples, or a part of it.
         type(scene_t), intent(inout) :: scene   !! as it was read
         class(system_t), intent(in) :: system   !! with the scene's parameters
         character(*), intent(in) :: method      !! any word
@@ -60,6 +64,7 @@ contains
         type(description_t) :: d
         integer :: i
         logical :: adapts, steps  ! it takes a tolerance, a step
+        logical :: known          ! the closed form of the states
 
         steps = any(method_names() == method)
         adapts = any(adaptive_names() == method)
@@ -80,26 +85,83 @@ contains
             scene%samples = max(1_i8, nint(scene%duration/(scene%dt*scene%every), i8))
         else if (scene%tolerance > 0.0_dp .and. .not. adapts) then
             scene%tolerance = 0.0_dp
-            scene%dt = scene%duration/scene%samples
-            scene%every = 1
+            scene%every = max(1_i8, min(most_steps/scene%samples, &
+                              ceiling(min(scene%duration/scene%samples/longest_step, &
+                                          real(most_steps, dp)), i8)))
+            scene%dt = scene%duration/scene%samples/scene%every
         end if
         call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
         call system%describe(d)
         names = [character(name_length) :: "t", &
                  d%coordinates(:min(size(d%coordinates), most_coordinates))%name]
-        call add_drift(column_names(system, .false.), names)
+        ! An impact takes energy, which is no error of a method.
+        if (system%contacts == 0) call add_drift(column_names(system, .false.), names)
         ! Where no closed form is known the error is that beside a finer run, if the scene has it.
-        kept = pack(scene%expectations, scene%expectations%name == "error")
+        kept = pack(scene%expectations, scene%expectations%name == "error" .and. &
+                    system%contacts == 0)
         kept%judged = .false.
-        if (allocated(closed_form)) then
-            if (closed_form%has_state) kept = [expectation_t("error", &
-                                                               huge(1.0_dp), judged=.false.)]
-        end if
-        if (size(kept) > 0 .and. system%contacts == 0) names = [character(name_length) :: names, &
-                                                                "error"]
+        known = .false.
+        if (allocated(closed_form)) known = closed_form%has_state
+        if (known) kept = kept(:0)
+        if (known .or. size(kept) > 0) names = [character(name_length) :: names, "error"]
         call unjudged(scene, names)
         call move_alloc(kept, scene%expectations)
     end subroutine compare_methods
+
+    subroutine overrides_for(given, methods, method, overrides)
+        !! What is set for one method of a comparison: a step is for those that take steps, and a
+        !! tolerance for those that keep one. A method that can do both keeps the tolerance if both
+        !! are set. What no method of them takes stays, to be refused.
+        type(word_t), intent(in) :: given(:)    !! the words behind `--set`
+        type(word_t), intent(in) :: methods(:)  !! of the comparison, any words
+        character(*), intent(in) :: method      !! one of them
+        type(word_t), allocatable, intent(out) :: overrides(:)  !! the method is among them if it
+        !! has something of its own
+        character(name_length), allocatable :: adaptive(:), fixed(:)
+        logical :: dropped(size(given)), is_method(size(given)), is_step(size(given)), &
+                   is_tolerance(size(given))
+        logical :: adapts, own, steps
+        integer :: i
+
+        allocate (adaptive, source=adaptive_names())
+        allocate (fixed, source=method_names())
+        steps = any(fixed == method)
+        adapts = any(adaptive == method)
+        do i = 1, size(given)
+            is_method(i) = key(given(i)%text) == "scene%method"
+            is_step(i) = key(given(i)%text) == "scene%dt" .or. key(given(i)%text) == "scene%every"
+            is_tolerance(i) = key(given(i)%text) == "scene%tolerance"
+        end do
+        dropped = .false.
+        if (adapts .and. any(is_tolerance)) then
+            dropped = is_step
+        else if (steps .and. any(is_step)) then
+            dropped = is_tolerance
+        else
+            if (any([(any(fixed == methods(i)%text), i=1, size(methods))])) dropped = is_step
+            if (any([(any(adaptive == methods(i)%text), i=1, size(methods))])) then
+                dropped = dropped .or. is_tolerance
+            end if
+        end if
+        own = (steps .and. any(is_step .and. .not. dropped)) .or. &
+              (adapts .and. any(is_tolerance .and. .not. dropped))
+        if (own) dropped = dropped .or. is_method
+        allocate (overrides(count(.not. dropped) + merge(1, 0, own)))
+        if (own) overrides(size(overrides))%text = "scene%method="//method
+        overrides(:count(.not. dropped)) = pack(given, .not. dropped)
+    contains
+        pure function key(text) result(name)
+            !! In front of `=`, in lower case and without blanks.
+            character(*), intent(in) :: text
+            character(:), allocatable :: name
+            integer :: k
+
+            name = ""
+            do k = 1, index(text//"=", "=") - 1
+                if (text(k:k) /= " ") name = name//lower(text(k:k))
+            end do
+        end function key
+    end subroutine overrides_for
 
     pure subroutine add_drift(all, names)
         !! That of the energy, or the first one that there is.

@@ -16,6 +16,7 @@ module lagrangia_scorecard
     public :: scorecard_width
 
     integer, parameter :: scorecard_width = 80  !! columns of a terminal
+    integer, parameter :: method_column = 25    !! behind a scene's name
     character(*), parameter :: lf = new_line("a")
     character(*), parameter :: scorecard_legend = &
         "method   of the steps; exact: none, but the closed form of the motion"//lf// &
@@ -223,16 +224,18 @@ contains
     end function number
 
     function cells(scene, method, drift, error, verdict) result(line)
-        !! The row's columns; a long word takes of the room behind it.
+        !! The row's columns; a long word takes of the room behind it, and a long name of a scene
+        !! has a line of its own.
         character(*), intent(in) :: scene, method, drift, error, verdict
         character(:), allocatable :: line
 
         line = ""
-        call put(scene, 0)
-        call put(method, 25)
+        if (len(scene) < method_column) call put(scene, 0)
+        call put(method, method_column)
         call put(drift, 34)
         call put(error, 56)
         call put(verdict, 73)
+        if (len(scene) >= method_column) line = scene//lf//line
     contains
         subroutine put(word, column)
             character(*), intent(in) :: word

@@ -14,6 +14,7 @@ module lagrangia_scene
     integer, parameter :: sweep_text_length = 120  !! of a text of `&sweep`
     integer, parameter :: most_axes = 2            !! of a sweep
     integer, parameter :: short_line = 100         !! a list goes on in the next line
+    real(dp), parameter :: no_limit = 1e300_dp     !! of what is estimated and not judged
 
     type :: expectation_t
         !! The scene's own tolerance: the column `name` stays within `limit`.
@@ -137,9 +138,13 @@ contains
         if (scene%modes) call add("  modes = .true.")
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
         do i = 1, size(scene%expectations)
-            if (.not. scene%expectations(i)%judged) cycle
-            call add("  expect_"//trim(scene%expectations(i)%name)//" = "// &
-                     to_text(scene%expectations(i)%limit))
+            associate (name => scene%expectations(i)%name)
+                if (scene%expectations(i)%judged) then
+                    call add("  expect_"//trim(name)//" = "//to_text(scene%expectations(i)%limit))
+                else if (name == "error" .and. any(scene%columns == name)) then
+                    call add("  expect_error = "//to_text(no_limit))  ! the column asks for it
+                end if
+            end associate
         end do
         call add("  output = "//text_value(scene%output))
         call add("/")

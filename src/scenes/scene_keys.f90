@@ -30,9 +30,10 @@ module lagrangia_scene_keys
 
 contains
 
-    subroutine read_times(tree, scene, error)
+    subroutine read_times(tree, system, scene, error)
         !! Method, how it adds, step, duration, samples.
         type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        class(system_t), intent(in) :: system    !! with its parameters, for remedies
         type(scene_t), intent(inout) :: scene  !! gets these values
         type(error_t), allocatable, intent(out) :: error  !! a value that is missing or not allowed
         integer(i8) :: samples, steps
@@ -45,7 +46,7 @@ contains
         if (allocated(error)) return
         call get_real(tree, "scene", "t0", scene%t0, error)
         if (allocated(error)) return
-        call read_tolerance(tree, scene, error)
+        call read_tolerance(tree, system, scene, error)
         if (allocated(error)) return
         if (scene%tolerance <= 0.0_dp) call get_positive("dt", scene%dt)
         if (allocated(error)) return

@@ -155,7 +155,7 @@ contains
             call refuse_unknown_keys(tree, "scene", [character(key_length) :: allowed, &
                                      drift_keys(system)], error, early=.true.)
             if (allocated(error)) exit read_groups
-            call read_times(tree, scene, error)
+            call read_times(tree, system, scene, error)
             if (allocated(error)) exit read_groups
             call read_state(tree, system, scene, error)
             if (.not. allocated(error)) call check_formulas_at_start(tree, system, scene, error)

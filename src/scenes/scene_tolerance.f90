@@ -2,14 +2,15 @@ module lagrangia_scene_tolerance
     !! The keys that say whether a scene's method takes steps of `dt` or chooses them.
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, auto, exact, method_names, method_titles, &
-                                 new_adaptive, workhorse
+                                 new_adaptive, new_integrator, prepare_integrator, workhorse
     use lagrangia_namelist, only: get_integer, get_real, has_key, is_overridden, namelist_t, &
                                   refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
     private
@@ -22,10 +23,11 @@ module lagrangia_scene_tolerance
 
 contains
 
-    subroutine read_tolerance(tree, scene, error)
+    subroutine read_tolerance(tree, system, scene, error)
         !! `tolerance` and `samples` of a scene whose method is to choose its steps; `tolerance`
         !! stays 0 where it is not.
         type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        class(system_t), intent(in) :: system    !! with its parameters, for remedies
         type(scene_t), intent(inout) :: scene  !! has its method; gets the two values
         type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
         class(dense_integrator_t), allocatable :: method
@@ -38,7 +40,7 @@ contains
         end if
         allocate (names, source=[character(name_length) :: method_names(), auto])
         if (.not. allocated(method)) then
-            call refuse_fixed(tree, trim(scene%method), names, error)
+            call refuse_fixed(tree, trim(scene%method), names, system, error)
             return
         end if
         if (scene%method == auto .and. scene%compensated) then
@@ -91,11 +93,14 @@ contains
         end if
     end subroutine read_tolerance
 
-    subroutine refuse_fixed(tree, name, fixed, error)
-        !! A tolerance for a method that has none, or a method that is not there at all.
+    subroutine refuse_fixed(tree, name, fixed, system, error)
+        !! A tolerance for a method that has none, or a method that is not there at all. No step is
+        !! advised for a method that the system's forces do not let step.
         type(namelist_t), intent(inout) :: tree
         character(*), intent(in) :: name, fixed(:)
+        class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
+        class(integrator_t), allocatable :: method
         type(error_t), allocatable :: found
         character(name_length), allocatable :: adaptive(:)
         character(:), allocatable :: remedy
@@ -110,6 +115,12 @@ contains
             call refuse_name("method", name, adaptive, found, method_titles(adaptive))
             call refuse_value(tree, "scene", "method", found%message, error)
         else if (has_key(tree, "scene", "tolerance")) then
+            call new_integrator(name, method, found)
+            if (.not. allocated(found)) call prepare_integrator(method, system, found)
+            if (allocated(found)) then
+                call refuse_value(tree, "scene", "method", found%message, error)
+                return
+            end if
             remedy = ""
             if (is_overridden(tree, "scene", "method") .and. &
                 .not. is_overridden(tree, "scene", "tolerance")) then
