@@ -95,6 +95,7 @@ contains
             if (expression%depends_on(i)) could_be_trivial = samples%role(i) == role_frequency &
                                                              .and. could_be_trivial
         end do
+        could_be_trivial = could_be_trivial .or. first > 1  ! nor does what stands for a formula
         do i = 1, widest
             explanation%width = i
             select case (i)

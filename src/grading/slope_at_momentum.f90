@@ -1,6 +1,6 @@
 module lagrangia_slope_at_momentum
-    !! The slope of an effective potential, in which the momentum of the other coordinate is a
-    !! constant whatever letters stand for it.
+    !! The slope of an effective potential, in which the momenta of the other coordinates
+    !! are constants whatever letters stand for them.
     use lagrangia_derivative, only: derivative
     use lagrangia_expression, only: expression_t, operator(*), operator(-), operator(/), whole
     use lagrangia_sample_names, only: samples_t
@@ -12,26 +12,46 @@ module lagrangia_slope_at_momentum
 contains
 
     pure function slope_at_momentum(formula, place, lagrangian, samples) result(slope)
-        !! \(\partial_q F + (\partial\dot\varphi/\partial q)_p\,\partial_{\dot\varphi}F\) of two
-        !! coordinates q and \(\varphi\), with \((\partial\dot\varphi/\partial q)_p =
-        !! -(\partial p/\partial q)/(\partial p/\partial\dot\varphi)\) and
-        !! \(p = \partial L/\partial\dot\varphi\) at \(\dot q = 0\); of others \(\partial_q F\).
-        type(expression_t), intent(in) :: formula     !! \(F(q, \dot\varphi)\)
+        !! \(\partial_q F + \sum_c(\partial\dot q_c/\partial q)_p\,\partial F/\partial\dot q_c\),
+        !! c one or two other coordinates, with
+        !! \(\sum_b(\partial p_a/\partial\dot q_b)(\partial\dot q_b/\partial q)_p =
+        !! -\partial p_a/\partial q\) and \(p_a = \partial L/\partial\dot q_a\) at \(\dot q = 0\).
+        type(expression_t), intent(in) :: formula     !! \(F(q, \dot q_c)\)
         integer, intent(in) :: place                  !! of the symbol \(q\)
         type(expression_t), intent(in) :: lagrangian  !! by coordinates and velocities, or empty
         type(samples_t), intent(in) :: samples        !! know the symbols
         type(expression_t) :: slope
-        type(expression_t) :: momentum, still(1)
-        integer :: other, velocity
+        type(expression_t) :: determinant, momenta(2), still(1)
+        integer :: i, n, others(2)
 
         slope = derivative(formula, place)
-        if (samples%ndof /= 2 .or. lagrangian%count == 0) return
-        velocity = place + 2
-        other = 9 - velocity  ! symbols: t, two coordinates, two velocities
-        if (.not. formula%depends_on(other)) return
+        if (samples%ndof > 3 .or. lagrangian%count == 0) return
+        n = 0
+        do i = 2 + samples%ndof, 1 + 2*samples%ndof  ! the velocities
+            if (i == place + samples%ndof) cycle
+            n = n + 1
+            others(n) = i
+        end do
+        if (.not. any([(formula%depends_on(others(i)), i=1, n)])) return
         still(1) = whole(0)
-        momentum = substituted(derivative(lagrangian, other), [velocity], still)
-        slope = slope - derivative(formula, other)*derivative(momentum, place)/ &
-                derivative(momentum, other)
+        do i = 1, n
+            momenta(i) = substituted(derivative(lagrangian, others(i)), [place + samples%ndof], &
+                                     still)
+        end do
+        if (n == 1) then
+            slope = slope - derivative(formula, others(1))*derivative(momenta(1), place)/ &
+                    derivative(momenta(1), others(1))
+            return
+        end if
+        determinant = derivative(momenta(1), others(1))*derivative(momenta(2), others(2)) - &
+                      derivative(momenta(1), others(2))*derivative(momenta(2), others(1))
+        do i = 1, 2
+            associate (k => 3 - i)
+                slope = slope - derivative(formula, others(i))* &
+                        (derivative(momenta(k), others(k))*derivative(momenta(i), place) - &
+                         derivative(momenta(i), others(k))*derivative(momenta(k), place))/ &
+                        determinant
+            end associate
+        end do
     end function slope_at_momentum
 end module lagrangia_slope_at_momentum
