@@ -176,7 +176,7 @@ contains
         call new_system("charged_particle", system, error)
         call system%describe(d)
         values = default_values(d)
-        names = d%parameters%name
+        allocate (names, source=d%parameters%name)
         charge = findloc(names, "charge", 1)
         charge = sum(d%parameters(:charge - 1)%count) + 1
         values(charge) = 1e30_dp

@@ -165,7 +165,7 @@ contains
             "; small: D_ddot = theta1_ddot + theta2_ddot"// &
             "; small: p_theta1 = (m1 + m2) l1^2 theta1_dot + m2 l1 l2 theta2_dot"// &
             "; small: p_theta1 = (m1 + m2) l1^2 theta1_dot - m2 l1 l2 theta2_dot", &
-            remarks="3 the sign of 'g theta2'; 5 'theta2_ddot' must be counted -1 times"// &
+            remarks="3 the sign of 'g theta2'; 5 the sign of 'theta2_ddot'"// &
             "; 7 the sign of 'm2 l1 l2 theta2_dot'")
         call traced("pendulum", "rrrw", "small: dL/dtheta = -m g l theta"// &
             "; small: d/dt dL/dtheta_dot = m l^2 theta_ddot; small: theta_ddot = "// &

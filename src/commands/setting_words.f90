@@ -116,8 +116,8 @@ contains
         character(name_length), allocatable :: coordinates(:), parameters(:)
         integer :: i
 
-        coordinates = d%coordinates%name
-        parameters = d%parameters%name
+        allocate (coordinates, source=d%coordinates%name)
+        allocate (parameters, source=d%parameters%name)
         text = ""
         if (place_of(key(:index(key//"(", "(") - 1), parameters) > 0) then
             text = "a setting; write "//typed_option("set", trim(d%name)//"%"//key//"="//value)

@@ -105,7 +105,7 @@ contains
         end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
-        small = homework%statements%small
+        allocate (small, source=homework%statements%small)
         call find_determined(samples, result%of, small, result%equations, result%determined)
     contains
         subroutine insist(name, line)

@@ -312,6 +312,7 @@ contains
 
         remark = ""
         is_vague = .false.
+        on_right = ""
         call prepare(expression, samples, values, library, results, letters)
         search: do j = 0, min(samples%ndof, most_divisors)
             do k = 1, size(library)

@@ -273,9 +273,9 @@ contains
                 moved = hyperdual(q)
                 moved(i)%d1 = 1.0_dp
                 call system%positions(hyperdual(0.4_dp), moved, r)
-                ways(:, i) = reshape(r%d1, [n])
+                ways(:, i) = [(r(:, k)%d1, k=1, n/3)]
             end do
-            places = reshape(r%re, [n])
+            places = [(r(:, k)%re, k=1, n/3)]
             do i = 1, n
                 x = hyperdual(places)
                 x(i)%d1 = 1.0_dp
