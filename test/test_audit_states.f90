@@ -4,7 +4,7 @@ module test_audit_states
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_flow, only: flow_derivative
     use lagrangia_kinds, only: dp
@@ -170,14 +170,14 @@ contains
         type(error_t), allocatable :: error
         type(ledger_t) :: audit
         real(dp), allocatable :: values(:)
-        character(name_length), allocatable :: names(:)
         integer :: charge, row
 
         call new_system("charged_particle", system, error)
         call system%describe(d)
         values = default_values(d)
-        allocate (names, source=d%parameters%name)
-        charge = findloc(names, "charge", 1)
+        do charge = 1, size(d%parameters)
+            if (d%parameters(charge)%name == "charge") exit
+        end do
         charge = sum(d%parameters(:charge - 1)%count) + 1
         values(charge) = 1e30_dp
         call audit_system(system, audit, [(row == charge, row=1, size(values))], values)

@@ -113,11 +113,11 @@ contains
         character(*), intent(in) :: key, value  !! in lower case; any word
         type(description_t), intent(in) :: d
         character(:), allocatable :: text
-        character(name_length), allocatable :: coordinates(:), parameters(:)
+        character(name_length) :: coordinates(size(d%coordinates)), parameters(size(d%parameters))
         integer :: i
 
-        allocate (coordinates, source=d%coordinates%name)
-        allocate (parameters, source=d%parameters%name)
+        coordinates = d%coordinates%name
+        parameters = d%parameters%name
         text = ""
         if (place_of(key(:index(key//"(", "(") - 1), parameters) > 0) then
             text = "a setting; write "//typed_option("set", trim(d%name)//"%"//key//"="//value)

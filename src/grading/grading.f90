@@ -64,7 +64,7 @@ contains
         character(*), parameter :: inside = "abcdefghijklmnopqrstuvwxyz"// &
             "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"
         character(:), allocatable :: plain, said
-        logical, allocatable :: small(:)  ! statements that hold to first order
+        logical :: small(size(homework%statements))  ! they hold to first order only
         integer :: i, k
 
         said = ""
@@ -105,7 +105,7 @@ contains
         end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
-        allocate (small, source=homework%statements%small)
+        small = homework%statements%small
         call find_determined(samples, result%of, small, result%equations, result%determined)
     contains
         subroutine insist(name, line)
