@@ -12,7 +12,7 @@ module lagrangia_audit
     use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass, claim_mass, &
-                                         say_potential
+                                         least_pivot, say_potential
     use lagrangia_description, only: description_t, name_length, value_names
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
@@ -206,7 +206,7 @@ contains
         call new_nearby(nearby, system, values, t, q, v)
         if (.not. all_free .and. system%constraints == 0) then
             ! What is given may leave the sign of a pivot to rounding: I3 = 10^14 I1 of a top.
-            if (abs(smallest_pivot(nearby%terms(0)%mass)) <= 100*epsilon(1.0_dp)) then
+            if (abs(smallest_pivot(nearby%terms(0)%mass)) <= least_pivot) then
                 unresolved%states = unresolved%states + 1
                 if (.not. allocated(unresolved%why)) call check_mass_matrix( &
                     nearby%terms(0)%mass, unsolved)

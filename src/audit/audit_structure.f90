@@ -15,8 +15,10 @@ module lagrangia_audit_structure
     use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
-    public :: audit_flags, audit_cyclic, audit_mass, claim_mass, say_potential
+    public :: audit_flags, audit_cyclic, audit_mass, claim_mass, least_pivot, say_potential
 
+    real(dp), parameter :: least_pivot = 100*epsilon(1.0_dp)
+    !! of a scaled mass matrix: of a smaller one only rounding knows the sign
     character(*), parameter :: claim_mass = "mass matrix is positive definite"
 
     real(dp), parameter :: yes = 0.0_dp, no = 1.0_dp
@@ -217,7 +219,7 @@ contains
             end do
         end do
         lack = 1.0_dp - smallest_pivot(matrix)
-        call audit%try(claim_mass, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
+        call audit%try(claim_mass, lack, 1.0_dp - least_pivot, 1.0_dp)
         if (lack < 1.0_dp) return
         call check_mass_matrix(matrix, error)
         if (.not. allocated(error)) call fail(error, "a pivot is zero or negative")

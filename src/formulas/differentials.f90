@@ -9,8 +9,7 @@ module lagrangia_differentials
     implicit none (type, external)
     private
     public :: quotient_t
-    public :: coordinates, find_quotient, is_known, is_slope_of, name_of_slope, place_of, &
-              slope_name
+    public :: coordinates, find_quotient, is_known, name_of_slope, place_of, slope_name
 
     type :: quotient_t
         !! Of differentials, as tokens.
@@ -261,17 +260,8 @@ contains
         if (place == 0 .or. .not. is_known(symbols, name)) name = ""
     end function slope_name
 
-    pure function is_slope_of(symbols, quotient) result(yes)
-        !! Has the quotient a name of its own?
-        type(symbols_t), intent(in) :: symbols  !! of a sheet, with rates
-        type(quotient_t), intent(in) :: quotient  !! of one order, perhaps
-        logical :: yes
-
-        yes = name_of_slope(symbols, quotient) /= ""
-    end function is_slope_of
-
     pure function name_of_slope(symbols, quotient) result(name)
-        !! `dV_dtheta` of `dV/dtheta`, `ddV_eff_dr_dr` of `d^2V_eff/dr^2`, where it is a name.
+        !! `dV_dtheta` of `dV/dtheta`, `ddV_eff_dr_dr` of `d^2V_eff/dr^2`; empty where none is.
         type(symbols_t), intent(in) :: symbols    !! of a sheet, with rates
         type(quotient_t), intent(in) :: quotient  !! of any order
         character(:), allocatable :: name

@@ -2,8 +2,8 @@ submodule (lagrangia_formula_parser) lagrangia_formula_derivatives
     !! Derivatives as they are written by hand: `d/dt(m x_dot)`, `d theta/dt`, `dV/dtheta`,
     !! `d/dtheta V`, `d^2V/dtheta^2`, `theta''`, `V'(theta)`.
     use lagrangia_derivative, only: derivative, time_derivative
-    use lagrangia_differentials, only: coordinates, find_quotient, is_known, is_slope_of, &
-                                       name_of_slope, place_of, quotient_t, slope_name
+    use lagrangia_differentials, only: coordinates, find_quotient, is_known, name_of_slope, &
+                                       place_of, quotient_t, slope_name
     use lagrangia_expression, only: kind_symbol, operator(*), operator(+), operator(/), symbol
     use lagrangia_formula_reader, only: is_time_in_brackets, largest
     use lagrangia_formula_text, only: typed_name
@@ -61,7 +61,7 @@ contains
             if (reader%tokens%token(reader%at)%kind == is_name) then
                 quotient%operand = reader%tokens%word(reader%at)
                 quotient%behind = reader%at + 1
-                named = is_slope_of(symbols, quotient)
+                named = name_of_slope(symbols, quotient) /= ""
             end if
             if (named) then
                 call add_slope(reader, symbols, quotient, node)
@@ -137,10 +137,12 @@ contains
         type(symbols_t), intent(in) :: symbols
         type(quotient_t), intent(in) :: quotient
         integer, intent(inout) :: node
+        character(:), allocatable :: name
 
-        if (.not. is_slope_of(symbols, quotient)) return
+        name = name_of_slope(symbols, quotient)
+        if (name == "") return
         if (symbols%along_motion .and. quotient%operand == "T") return  ! the work-energy theorem
-        call add_named(reader, symbols, name_of_slope(symbols, quotient), quotient%behind, node)
+        call add_named(reader, symbols, name, quotient%behind, node)
     end subroutine add_slope
 
     pure subroutine differentiate_by(reader, symbols, first, by, node, error)

@@ -219,9 +219,10 @@ contains
         type(usual_t), intent(inout) :: all(:)
         integer, intent(inout) :: n
         character(*), parameter :: label = "the effective potential"
-        type(expression_t) :: effective, slope, still(1)
+        character(*), parameter :: potentials(*) = ["V_eff", "U_eff"]
+        type(expression_t) :: curvature, effective, slope, still(1)
         type(expression_t), allocatable :: formulas(:)
-        integer :: k, velocity
+        integer :: k, place, velocity
         logical :: conserves
 
         if (samples%lagrangian%count == 0 .or. samples%ndof > most_cyclic + 1) return
@@ -234,10 +235,10 @@ contains
             call put(all, n, samples, "U_eff", "- L at rest", effective, any_zero=.true.)
             return
         end if
-        k = only_place(formulas(1), samples)
-        if (k == 0) return
-        velocity = k + samples%ndof
-        slope = simplified(-substituted(derivative(formulas(1), k), [velocity], still), &
+        place = only_place(formulas(1), samples)
+        if (place == 0) return
+        velocity = place + samples%ndof
+        slope = simplified(-substituted(derivative(formulas(1), place), [velocity], still), &
                            samples%symbols)
         do k = 1, 2  ! p_psi^2/(2 I3), which is constant, is mostly no part of it
             effective = formulas(2)
@@ -247,16 +248,14 @@ contains
             call put(all, n, samples, "V_eff", label, effective, any_zero=.true.)
             call put(all, n, samples, "U_eff", label, effective, any_zero=.true.)
         end do
-        associate (name => samples%symbols%names(velocity - samples%ndof))
-            call put(all, n, samples, "dV_eff_d"//trim(name), "", slope, always=.true.)
-            call put(all, n, samples, "dU_eff_d"//trim(name), "", slope, always=.true.)
-            slope = simplified(slope_at_momentum(slope, velocity - samples%ndof, formulas(1), &
-                                                 samples), samples%symbols)
-            call put(all, n, samples, "ddV_eff_d"//trim(name)//"_d"//trim(name), "", slope, &
-                     always=.true.)
-            call put(all, n, samples, "ddU_eff_d"//trim(name)//"_d"//trim(name), "", slope, &
-                     always=.true.)
-        end associate
+        curvature = simplified(slope_at_momentum(slope, place, formulas(1), samples), &
+                               samples%symbols)
+        do k = 1, size(potentials)
+            associate (name => potentials(k), by => "_d"//trim(samples%symbols%names(place)))
+                call put(all, n, samples, "d"//name//by, "", slope, always=.true.)
+                call put(all, n, samples, "dd"//name//by//by, "", curvature, always=.true.)
+            end associate
+        end do
     end subroutine collect_effective
 
     pure function only_place(lagrangian, samples) result(place)
