@@ -89,8 +89,6 @@ module suites
     use test_gyroscopic, only: gyroscopic_suite
     use test_hanging_chain, only: hanging_chain_suite
     use test_harness, only: harness_suite
-    use test_harness_fixtures, only: harness_fixtures_suite
-    use test_harness_order, only: harness_order_suite
     use test_helmholtz, only: helmholtz_suite
     use test_help, only: help_suite
     use test_hyperdual, only: hyperdual_suite
@@ -113,6 +111,7 @@ module suites
     use test_methods, only: methods_suite
     use test_mirror, only: mirror_suite
     use test_mode_picture, only: mode_picture_suite
+    use test_mode_rounding, only: mode_rounding_suite
     use test_modes_files, only: modes_files_suite
     use test_motion_statements, only: motion_statements_suite
     use test_namelist, only: namelist_suite
@@ -230,8 +229,6 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
-        call suite%addTest(harness_fixtures_suite())
-        call suite%addTest(harness_order_suite())
         call suite%addTest(accuracy_suite())
         call suite%addTest(action_suite())
         call suite%addTest(amplitude_suite())
@@ -344,6 +341,7 @@ contains
         call suite%addTest(methods_suite())
         call suite%addTest(mirror_suite())
         call suite%addTest(mode_picture_suite())
+        call suite%addTest(mode_rounding_suite())
         call suite%addTest(modes_files_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_limits_suite())

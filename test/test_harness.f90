@@ -5,6 +5,8 @@ module test_harness
                      assertFail, assertFalse, assertIsFinite, assertRelativelyEqual, &
                      assertSameShape, assertTrue
     use lagrangia_kinds, only: dp, i8
+    use test_harness_fixtures, only: harness_fixtures_suite
+    use test_harness_order, only: harness_order_suite
     implicit none (type, external)
     private
     public :: harness_suite
@@ -14,7 +16,7 @@ module test_harness
 contains
 
     function harness_suite() result(suite)
-        !! The tests of this module.
+        !! The tests of this module, and of what surrounds a test.
         type(TestSuite) :: suite
 
         suite = TestSuite("harness")
@@ -27,6 +29,8 @@ contains
         call suite%addTest(TestMethod("unequal_strings_fail", unequal_strings_fail))
         call suite%addTest(TestMethod("relative_differences_fail", relative_differences_fail))
         call suite%addTest(TestMethod("nan_fails", nan_fails))
+        call suite%addTest(harness_fixtures_suite())
+        call suite%addTest(harness_order_suite())
     end function harness_suite
 
     subroutine true_claims_pass()

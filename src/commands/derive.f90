@@ -2,6 +2,7 @@ module lagrangia_derive
     !! `lagrangia derive SYSTEM`: the lecture's recipe from the positions of the masses to the
     !! equations of motion and the frequencies, each line compared with what the program computes.
     use lagrangia_aligned_latex, only: aligned_latex
+    use lagrangia_certain_digits, only: certain_scientific
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
@@ -147,14 +148,14 @@ contains
                 else if (numbers) then
                     call put_line("       "//both(c, digits))
                 else if (this%kind == line_equilibrium .and. is_nonzero(c%program)) then
-                    call put_line("       = "//scientific(c%formula, 6)//", Newton's method "// &
-                                  scientific(c%program, 6))
+                    call put_line("       = "//left_of(c%formula, c%noise)//", Newton's method "// &
+                                  left_of(c%program, c%noise))
                 else if (this%kind == line_decay) then
-                    call put_line("       = "//scientific(c%formula, 6)//" s^-1, LAPACK "// &
-                                  scientific(c%program, 6))
+                    call put_line("       = "//left_of(c%formula, c%noise)//" s^-1, LAPACK "// &
+                                  left_of(c%program, c%noise))
                 else if (any(this%kind == [line_omega2, line_damped_omega2])) then
-                    call put_line("       = "//scientific(c%formula, 6)//" s^-2, LAPACK "// &
-                                  scientific(c%program, 6))
+                    call put_line("       = "//left_of(c%formula, c%noise)//" s^-2, LAPACK "// &
+                                  left_of(c%program, c%noise))
                 end if
             end associate
         end do
@@ -175,6 +176,14 @@ contains
         call put_broken("  ", text(3:))
         call put_line("the last two steps with the accelerations of the motion, and at rest")
     end subroutine put_state
+
+    pure function left_of(value, noise) result(text)
+        !! Six digits, or what rounding has left of them.
+        real(dp), intent(in) :: value, noise
+        character(:), allocatable :: text
+
+        text = certain_scientific(value, noise/max(abs(value), tiny(value)), 6)
+    end function left_of
 
     function both(c, digits) result(text)
         !! The numbers and their difference.

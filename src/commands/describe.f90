@@ -358,7 +358,7 @@ contains
             if (allocated(system%cyclic_coordinates)) cyclic = system%cyclic_coordinates
         end select
         if (.not. any(cyclic)) return
-        text = text//"; "//join(pack(d%coordinates%name, cyclic), ", ")// &
+        text = text//"; "//join(pack((d%coordinates%name), cyclic), ", ")// &
                trim(merge(" is cyclic ", " are cyclic", count(cyclic) == 1))
     end function structure
 end module lagrangia_describe

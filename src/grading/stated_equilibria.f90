@@ -352,7 +352,7 @@ contains
         do draw = 1, draws
             call configure_draw(samples, draw, drawn, error)
             if (allocated(error)) cycle
-            call find_modes(drawn, places(draw, :), .true., modes, error)
+            call find_modes(drawn, (places(draw, :)), .true., modes, error)
             if (.not. allocated(error)) call put_other_modes(samples, drawn, draw, modes)
         end do
     end subroutine keep_without_formula

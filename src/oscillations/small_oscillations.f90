@@ -27,7 +27,7 @@ module lagrangia_small_oscillations
     use lagrangia_vectors, only: farthest
     implicit none (type, external)
     private
-    public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
+    public :: modes_t, find_modes, largest_expansion, likely_equilibrium, stays, twin_of
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated

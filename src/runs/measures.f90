@@ -8,6 +8,7 @@ module lagrangia_measures
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_mass_matrix, only: list_of
+    use lagrangia_mode_rounding, only: find_rounding, mode_rounding_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: sample_record_t
@@ -120,6 +121,7 @@ contains
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(outcome_t), intent(inout) :: outcome  !! gets the frequencies
         type(modes_t) :: modes
+        type(mode_rounding_t) :: rounding
         type(error_t), allocatable :: error
         integer :: j
 
@@ -133,6 +135,8 @@ contains
             if (modes%label(j) /= is_oscillation) cycle
             if (outcome%omega <= 0.0_dp) then
                 outcome%omega = sqrt(modes%omega2(j))
+                call find_rounding(system, modes, rounding)
+                outcome%omega_share = 0.5_dp*rounding%squares(j)/modes%omega2(j)
                 outcome%undamped = system%nonconservative
                 call find_formula(system, modes%at, modes%omega2(j), outcome%omega_formula)
             end if

@@ -36,6 +36,7 @@ module lagrangia_outcome
         real(dp) :: exact_period = 0.0_dp           !! by the closed form, s; 0 if there is none
         real(dp) :: small_period = 0.0_dp           !! \(2\pi/\omega\) of small swings, s; or 0
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
+        real(dp) :: omega_share = 0.0_dp            !! of it that rounding may have changed
         character(:), allocatable :: no_omega       !! why there is none, though it was asked for
         logical :: undamped = .false.               !! omega is without the generalised forces
         real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form

@@ -1,6 +1,7 @@
 module lagrangia_scorecard
     !! The scorecard: a row a scene in 80 columns and, for those who name the scene, lines below it
     !! that say in words what was measured.
+    use lagrangia_certain_digits, only: certain_scientific
     use lagrangia_characters, only: printable
     use lagrangia_counted, only: counted
     use lagrangia_kinds, only: dp
@@ -119,7 +120,7 @@ contains
         if (self%omega > 0.0_dp) then
             call add_number("omega", self%omega, "rad/s", "the slowest small oscillation"// &
                             trim(merge(" without forces beside L", repeat(" ", 24), &
-                                       self%undamped))//", by LAPACK")
+                                       self%undamped))//", by LAPACK", self%omega_share)
             if (allocated(self%omega_formula)) call add(self%omega_formula, 12)
             if (self%omega_error >= 0.0_dp) call add("all frequencies: LAPACK and closed forms "// &
                 "differ by at most "//short(self%omega_error, 2), 12)
@@ -156,12 +157,17 @@ contains
                      "them: that drift is their rounding and says nothing about the motion")
         end subroutine add_rounding
 
-        subroutine add_number(name, value, unit, meaning)
+        subroutine add_number(name, value, unit, meaning, share)
             character(*), intent(in) :: name, unit, meaning
             real(dp), intent(in) :: value
+            real(dp), intent(in), optional :: share  ! of it that rounding may have changed
+            character(:), allocatable :: text
 
-            call append_word(lines, left("    "//name, 12)//left(number(value)//" "//unit, 20)// &
-                             meaning)
+            text = number(value)
+            if (present(share)) then
+                if (share > 5e-12_dp) text = certain_scientific(value, share, 11)
+            end if
+            call append_word(lines, left("    "//name, 12)//left(text//" "//unit, 20)//meaning)
         end subroutine add_number
 
         function agreement() result(text)
