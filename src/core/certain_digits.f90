@@ -17,11 +17,13 @@ contains
         integer :: decimals
 
         text = trim(number(value))
-        if (share <= 5e-12_dp .or. is_zero(value)) return
-        text = certain_scientific(value, share, 12)
-        if (.not. is_handy(value) .or. share >= 0.5_dp) return
+        if (is_zero(value)) return
         decimals = digits_of(share) - 1 - floor(log10(abs(value)))
-        if (decimals >= 0) text = fixed(value, min(decimals, 11))
+        if (is_handy(value) .and. decimals >= 0 .and. share < 0.5_dp) then
+            text = fixed(value, min(decimals, 11))
+        else if (share > 5e-12_dp) then
+            text = certain_scientific(value, share, 12)
+        end if
     end function certain
 
     pure function certain_scientific(value, share, digits) result(text)

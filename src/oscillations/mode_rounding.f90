@@ -8,7 +8,7 @@ module lagrangia_mode_rounding
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: all_finite, is_nonzero
-    use lagrangia_small_oscillations, only: largest_expansion, modes_t, twin_of
+    use lagrangia_small_oscillations, only: is_zero_mode, largest_expansion, modes_t, twin_of
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -52,6 +52,7 @@ contains
         end if
         lean = leans(modes, u)
         rounding%squares = lean*[(moved(j, j), j=1, n)]
+        where (modes%label == is_zero_mode) rounding%squares = zero_bound(modes, rounding%squares)
         allocate (rounding%shapes(size(modes%at), n), source=0.0_dp)
         allocate (rounding%alike(n), source=0)
         if (size(modes%at) > largest_expansion) return
@@ -67,13 +68,25 @@ contains
                 gap = abs(modes%omega2(j) - modes%omega2(k))
                 tilt = lean(k)*(moved(k, j) + abs(dot_product(u(:, k), rest)))
                 if (gap <= tilt) then
-                    if (k < j) rounding%alike(j) = k
+                    if (k < j .and. modes%turning(j) <= 0.0_dp) rounding%alike(j) = k
                     cycle
                 end if
                 rounding%shapes(:, j) = rounding%shapes(:, j) + tilt/gap*abs(u(:, k))
             end do
         end do
     end subroutine find_rounding
+
+    pure function zero_bound(modes, squares) result(bounds)
+        !! A zero mode is one whose \(\omega^2\) is not seen beside these.
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(in) :: squares(:)  !! by rounding of sums and parameters
+        real(dp) :: bounds(size(squares))
+
+        bounds = size(modes%at)*squares
+        if (allocated(modes%quadrature)) bounds = max(bounds, 16*size(squares)*epsilon(1.0_dp)* &
+            min(maxval(abs(modes%omega2)), maxval(abs(modes%stiffness))* &
+                sum(modes%shapes**2 + modes%quadrature**2, 1)))
+    end function zero_bound
 
     pure function lambda_of(modes, j) result(lambda)
         !! \(i\omega\), or the growth rate.
