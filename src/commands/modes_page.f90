@@ -133,24 +133,25 @@ contains
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         complex(dp), allocatable :: lambda(:)
-        real(dp), allocatable :: rounding(:)
+        real(dp), allocatable :: rounding(:), distance(:)
         type(error_t), allocatable :: error
         integer :: j
 
         call put_line("these modes are without the generalised forces beside L; with them, as "// &
                       "exp(lambda t):")
-        call damped_rates(system, modes, lambda, error, rounding)
+        call damped_rates(system, modes, lambda, error, rounding, distance)
         if (allocated(error)) then
             call put_line("  "//error%message)
             return
         end if
         do j = 1, size(lambda)
-            associate (gamma => -real(lambda(j)), omega => aimag(lambda(j)), delta => rounding(j))
+            associate (gamma => -real(lambda(j)), omega => aimag(lambda(j)))
                 if (omega > 0.0_dp) then
-                    call put_line("  decay rate "//decay(gamma, delta, omega)//" 1/s, omega "// &
-                                  certain(omega, (delta/omega)**2)//" rad/s")
+                    call put_line("  decay rate "//decay(gamma, rounding(j), omega)// &
+                                  " 1/s, omega "//certain(omega, distance(j)/omega)//" rad/s")
                 else
-                    call put_line("  decay rate "//trim(number(gamma))//" 1/s, no oscillation")
+                    call put_line("  decay rate "//decay(gamma, distance(j), abs(gamma))// &
+                                  " 1/s, no oscillation")
                 end if
             end associate
         end do

@@ -16,7 +16,8 @@ module lagrangia_quadratic_eigen
 
 contains
 
-    pure subroutine quadratic_eigenvalues(mass, damping, stiffness, lambda, error, rounding)
+    pure subroutine quadratic_eigenvalues(mass, damping, stiffness, lambda, error, rounding, &
+                                          distance, unsure)
         !! The \(\lambda\) of \((\lambda^2M + \lambda D + K)u = 0\), all 2n, with magnitudes that
         !! fall.
         !!
@@ -37,19 +38,27 @@ contains
         complex(dp), allocatable, intent(out) :: lambda(:)  !! (2n), 1/s
         type(error_t), allocatable, intent(out) :: error    !! status 4: LAPACK, a singular M
         real(dp), allocatable, intent(out), optional :: rounding(:)
-        !! (2n), how far the rounding of the elements may have moved \(\mathrm{Re}\,\lambda\), 1/s;
-        !! the imaginary part of an oscillation by the square of that over \(|\lambda|\)
+        !! (2n), how far the rounding of the elements may have moved \(\mathrm{Re}\,\lambda\) of an
+        !! oscillation, 1/s
+        real(dp), allocatable, intent(out), optional :: distance(:)
+        !! (2n), how far it may have moved \(\mathrm{Im}\,\lambda\), or a real \(\lambda\), 1/s
+        real(dp), intent(in), optional :: unsure(:, :)
+        !! by how much more than its rounding \(K\) may be off, (n, n); else nothing
         real(dp), allocatable :: e(:, :), a(:, :)
         complex(dp), allocatable :: fast_ones(:), slow_ones(:)
         complex(dp) :: shape_of(size(mass, 1))
         type(error_t), allocatable :: singular
-        real(dp) :: moved(2*size(mass, 1)), noise
+        real(dp) :: moved(2*size(mass, 1)), most(2*size(mass, 1)), noise
+        real(dp) :: springs(size(mass, 1), size(mass, 1))
         integer :: fast, i, j, n
         logical :: none
 
         n = size(mass, 1)
         allocate (lambda(2*n), source=(0.0_dp, 0.0_dp))
         moved = 0.0_dp
+        most = 0.0_dp
+        springs = 4.0_dp*epsilon(noise)*abs(stiffness)
+        if (present(unsure)) springs = springs + unsure
         allocate (e(2*n, 2*n), a(2*n, 2*n), source=0.0_dp)
         do i = 1, n
             e(i, i) = 1.0_dp
@@ -78,7 +87,13 @@ contains
                         moved(j))
             none = is_rounding(lambda(j), abs(fast_ones(1)), shape_of, mass, damping, stiffness)
             if (none) lambda(j) = 0.0_dp
+            if (present(distance)) call bound(lambda(j), shape_of, mass, damping, stiffness, &
+                                              springs, most(j), error)
+            if (allocated(error)) return
+            ! of the second order
+            if (moved(j) > 0.0_dp) most(j) = most(j) + moved(j)**2/abs(aimag(lambda(j)))
         end do
+        if (present(distance)) allocate (distance, source=most)
         if (present(rounding)) allocate (rounding, source=moved)
         if (size(fast_ones) > 0) call check_product(e, a, lambda(:size(fast_ones)), error)
     end subroutine quadratic_eigenvalues
@@ -174,9 +189,10 @@ contains
         real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
         complex(dp) :: q(size(u) + 1, size(u) + 1), r(size(u) + 1), change(size(u) + 1)
         real(dp), dimension(2*size(u) + 2, 2*size(u) + 2) :: a
-        real(dp) :: x(2*size(u) + 2)
+        real(dp), parameter :: least = 16.0_dp*epsilon(least)**2
+        real(dp) :: weight(size(u)), x(2*size(u) + 2)
         type(error_t), allocatable :: singular
-        integer :: n
+        integer :: i, n
 
         n = size(u) + 1
         q = 0.0_dp
@@ -195,9 +211,49 @@ contains
         if (.not. abs(change(n)) <= noise) return
         if (.not. norm2(abs(change(:n - 1))) <= 1e-3_dp*norm2(abs(u))) return
         u = u + change(:n - 1)
+        weight = abs(u)*sqrt([(mass(i, i), i=1, n - 1)])
+        where (weight <= least*maxval(weight)) u = 0.0_dp  ! rounding of rounding: not coupled
         if (is_zero(aimag(lambda))) change(n) = real(change(n))
         lambda = lambda + change(n)
     end subroutine improve
+
+    pure subroutine bound(lambda, u, mass, damping, stiffness, springs, distance, error)
+        !! With the left vector w a change of the elements moves \(\lambda\) by
+        !! \(-w^\dagger(\lambda^2\delta M + \lambda\,\delta D + \delta K)u/
+        !! (w^\dagger(2\lambda M + D)u)\): the sum of what each element, off by \(4\epsilon\) of
+        !! itself, does to the imaginary part, or to what is real. Where two eigenvalues meet the
+        !! root of the numerator over \(|w^\dagger Mu|\) is less.
+        complex(dp), intent(in) :: lambda, u(:)
+        real(dp), intent(in) :: mass(:, :), damping(:, :), stiffness(:, :)
+        real(dp), intent(in) :: springs(:, :)  !! \(\delta K\)
+        real(dp), intent(out) :: distance
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: rounding = 4.0_dp*epsilon(1.0_dp)
+        complex(dp) :: w(size(u)), slope, part, turned
+        real(dp) :: total, curve
+        integer :: i, j
+
+        distance = 0.0_dp
+        call find_shape(conjg(lambda), transpose(mass), transpose(damping), transpose(stiffness), &
+                        w, error)
+        if (allocated(error)) return
+        slope = dot_product(w, matmul(2.0_dp*lambda*mass + damping, u))
+        if (abs(slope) <= 0.0_dp) slope = tiny(total)
+        turned = merge((1.0_dp, 0.0_dp), (0.0_dp, -1.0_dp), is_zero(aimag(lambda)))
+        total = 0.0_dp
+        do j = 1, size(u)
+            do i = 1, size(u)
+                part = turned*conjg(w(i))*u(j)/slope
+                distance = distance + abs(real(part))*springs(i, j) + rounding* &
+                           (abs(real(lambda*part)*damping(i, j)) + &
+                            abs(real(lambda**2*part)*mass(i, j)))
+                total = total + abs(w(i))*abs(u(j))*(springs(i, j) + rounding* &
+                        (abs(lambda*damping(i, j)) + abs(lambda**2*mass(i, j))))
+            end do
+        end do
+        curve = abs(dot_product(w, matmul(mass, u)))
+        distance = min(distance, sqrt(total/max(curve, tiny(curve))))
+    end subroutine bound
 
     pure function is_rounding(lambda, largest, u, mass, damping, stiffness) result(yes)
         !! Is it what rounding leaves of a multiple 0, \(|\lambda| \le
