@@ -200,6 +200,8 @@ contains
         call failed(error, "a.nml:2:15: &a: dt has 1 value; 2 are needed")
         call get_reals(tree, "a", "h", 3, 3, q, error)
         call failed(error, "a.nml:2:8: &a: h: element 2 has no value")
+        call get_reals(tree, "a", "h", 4, 6, q, error)
+        call failed(error, "a.nml:2:8: &a: h: element 2 has no value")
         call get_real(tree, "a", "dt", x, error)
         call failed(error, &
                     "a.nml:2:15: &a: dt is a single value; write dt = value, without an index")
