@@ -2,7 +2,7 @@ module test_accuracy
     !! What a run says of its error, beside the truth.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
                      assertFalse, assertLessThan, assertLessThanOrEqual
-    use lagrangia_accuracy, only: agreement, estimate, state_accuracy
+    use lagrangia_accuracy, only: agreement, estimate, plan_finer, state_accuracy
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
@@ -18,6 +18,7 @@ module test_accuracy
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
+    use lagrangia_trajectory_plan, only: trajectory_plan_t
     use scene_runs, only: plan_and_run
     use stated_text, only: read_concise
     implicit none (type, external)
@@ -46,6 +47,7 @@ contains
         call suite%addTest(TestMethod("the_latest_change_counts", the_latest_change_counts))
         call suite%addTest(TestMethod("who_lingers_is_not_trusted", who_lingers_is_not_trusted))
         call suite%addTest(TestMethod("small_distances_are_trusted", small_distances_are_trusted))
+        call suite%addTest(TestMethod("finer_steps_are_not_halves", finer_steps_are_not_halves))
         call suite%addTest(TestMethod("an_estimate_is_doubled", an_estimate_is_doubled))
     end function accuracy_suite
 
@@ -185,6 +187,37 @@ contains
             call assertEqual([0.99e-10_dp, 1.01e-9_dp], errors(1, :), 1e-13_dp, "below and above")
         end do
     end subroutine small_distances_are_trusted
+
+    subroutine finer_steps_are_not_halves()
+        !! Of n = 10 steps, or of 10 and a part, 2 n + 1, and twice that and one again; each is seen
+        !! as often as the steps that it refines.
+        call check("0.1", 10)
+        call check("0.098", 10)
+        call check("0.0953", 10)
+        call check("0.25", 4)
+    contains
+        subroutine check(dt, n)
+            character(*), intent(in) :: dt
+            integer, intent(in) :: n
+            type(run_plan_t) :: plan
+            type(trajectory_plan_t) :: finer(2)
+            type(error_t), allocatable :: error
+            integer :: k
+
+            call parse_run_plan(plan, "&scene system = 'pendulum', method = 'rk4', q = 1, dt = "// &
+                                dt//", duration = 1, every = 2, columns = 't' /", "s.nml", &
+                                [word_t ::], error)
+            call assertFalse(allocated(error), "a good scene")
+            if (allocated(error)) return
+            call plan_finer(plan%settled, plan%system, finer, error)
+            call assertFalse(allocated(error), "finer")
+            if (allocated(error)) return
+            do k = 1, 2
+                call assertEqual(int(2**k*(n + 1) - 1, i8), finer(k)%times%step_count(), dt)
+                call assertEqual(2_i8*2_i8**k, finer(k)%times%every, dt)
+            end do
+        end subroutine check
+    end subroutine finer_steps_are_not_halves
 
     subroutine an_estimate_is_doubled()
         !! Where no other method is asked, as across impacts, the distance to the finer runs counts

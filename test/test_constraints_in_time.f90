@@ -1,10 +1,12 @@
 module test_constraints_in_time
     !! Constraints that contain the time, beside others that do not.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_audit_structure, only: audit_flags
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*)
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
@@ -15,7 +17,8 @@ module test_constraints_in_time
     public :: constraints_in_time_suite
 
     type, extends(own_slope_t) :: turning_slope_t
-        !! One that becomes steeper, \(\dot y = ct\,\dot x\).
+        !! One that becomes steeper, \(\dot y = ct\,\dot x\), or \(ct\,\dot x = 0\).
+        logical :: upright = .false.
     contains
         procedure :: constraint_rows => turning_rows
     end type turning_slope_t
@@ -30,6 +33,8 @@ contains
         call suite%addTest(TestMethod("one_of_two_constraints_contains_the_time", &
                                       one_of_two_constraints_contains_the_time))
         call suite%addTest(TestMethod("one_of_two_slopes_turns", one_of_two_slopes_turns))
+        call suite%addTest(TestMethod("a_row_that_grows_contains_the_time", &
+                                      a_row_that_grows_contains_the_time))
         call suite%addTest(TestMethod("a_speed_that_is_a_place", a_speed_that_is_a_place))
     end function constraints_in_time_suite
 
@@ -80,7 +85,25 @@ contains
 
         call self%own_slope_t%constraint_rows(t, q, rows, drift)
         rows(1, 1) = rows(1, 1)*t
+        if (self%upright) rows(1, 2) = hyperdual_t()
     end subroutine turning_rows
+
+    subroutine a_row_that_grows_contains_the_time()
+        !! Also where no acceleration does: a mass that falls along a vertical wall.
+        character(*), parameter :: claim = "time_dependent says what is true"
+        type(turning_slope_t) :: wall
+        type(ledger_t) :: audit
+        type(error_t), allocatable :: error
+
+        wall%upright = .true.
+        call wall%configure([0.75_dp], error)
+        call assertTrue(wall%time_dependent, "as it is found")
+        call audit%section("wall")
+        call audit_flags(audit, wall, 1.0_dp, [0.3_dp, 0.2_dp], [0.0_dp, 0.7_dp], 2.0_dp, &
+                         [0.0_dp, -0.4_dp], .true.)
+        call assertTrue(audit%row_of(claim) > 0, "it is judged")
+        if (audit%row_of(claim) > 0) call assertTrue(audit%rows(audit%row_of(claim))%holds, claim)
+    end subroutine a_row_that_grows_contains_the_time
 
     subroutine a_speed_that_is_a_place()
         !! \(\dot x = y\) has no f(t, q) = c and does not contain the time; with \(y + t\) it does,

@@ -32,6 +32,7 @@ contains
         call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
         call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
         call suite%addTest(TestMethod("constants_have_converged", constants_have_converged))
+        call suite%addTest(TestMethod("constants_at_some_states", constants_at_some_states))
     end function motion_statements_suite
 
     subroutine motions()
@@ -219,4 +220,38 @@ contains
         call solve_constants(equations, [3, 4], values, regular)
         call assertTrue(regular .and. all(ieee_is_nan(values(:, 4))), "B has not converged")
     end subroutine constants_have_converged
+
+    subroutine constants_at_some_states()
+        !! A = 1/x follows where x is not 0. Newton's steps for \(\arctan(A - c) = 0\) lead to c
+        !! from no farther than 1.39: to either side of 0.3 there are other beginnings, from 0.7
+        !! less to 1.4 more.
+        character, parameter :: names(2) = ["x", "A"]
+        type(symbols_t) :: symbols
+        type(expression_t) :: equation(1)
+        type(error_t), allocatable :: error
+        real(dp) :: values(5, 2)
+        logical :: regular
+        integer :: i
+
+        do i = 1, size(names)
+            call symbols%add(names(i))
+        end do
+        call parse_formula("A x - 1", symbols, equation(1), error)
+        values(:, 1) = [0.0_dp, 0.5_dp, -2.0_dp, 0.0_dp, 4.0_dp]
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertTrue(regular, "somewhere")
+        call assertEqual([2.0_dp, -0.5_dp, 0.25_dp], values([2, 3, 5], 2), 1e-15_dp, "there")
+        call assertTrue(all(ieee_is_nan(values([1, 4], 2))), "elsewhere")
+        values(:, 1) = 0.0_dp
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertFalse(regular, "nowhere")
+        call parse_formula("atan(A - x)", symbols, equation(1), error)
+        values(:, 1) = [-3.0_dp, -1.6_dp, 0.3_dp, 3.0_dp, 4.0_dp]
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertEqual(values(2:4, 1), values(2:4, 2), 1e-14_dp, "near")
+        call assertTrue(all(ieee_is_nan(values([1, 5], 2))), "far")
+    end subroutine constants_at_some_states
 end module test_motion_statements

@@ -283,5 +283,7 @@ contains
         call failed(error, "--set a%m=0: &a: m = 0: must be positive")
         call refuse_value(tree, "a", "g", "must be positive", error)
         call failed(error, "a.nml:1:1: &a: g: must be positive")
+        call refuse_value(tree, "a", "g", "is no word", error, column=2)
+        call failed(error, "a.nml:1:1: &a: g: is no word")
     end subroutine values_the_caller_refuses
 end module test_namelist_values

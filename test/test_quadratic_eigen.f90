@@ -4,6 +4,7 @@ module test_quadratic_eigen
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
+    use lagrangia_regular_pencil, only: nullity
     use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     implicit none (type, external)
     private
@@ -31,8 +32,35 @@ contains
         call suite%addTest(TestMethod("a_coordinate_of_its_own", a_coordinate_of_its_own))
         call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
                                       three_masses_on_stiff_dashpots))
+        call suite%addTest(TestMethod("null_spaces_to_rounding", null_spaces_to_rounding))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
+
+    subroutine null_spaces_to_rounding()
+        !! Products of a column and a row of either sign, of which one or two are added; springs
+        !! that hang on nothing; and a matrix without any null space.
+        real(dp), parameter :: u(4) = [0.1_dp, -0.7_dp, 1.3_dp, -1.0_dp/3.0_dp]
+        real(dp), parameter :: w(4) = [-1.1_dp, 0.3_dp, 0.9_dp, -0.7_dp]
+        real(dp), parameter :: springs(3) = [0.1_dp, 0.7_dp, 1.9_dp]
+        real(dp) :: one(4, 4), two(4, 4), chain(4, 4)
+        integer :: i, sense
+
+        do sense = -1, 1, 2
+            one = sense*spread(u, 2, 4)*spread(w, 1, 4)
+            two = one + sense*spread(w**2, 2, 4)*spread(u**3, 1, 4)
+            call assertEqual(3, nullity(one), message="of rank 1")
+            call assertEqual(2, nullity(two), message="of rank 2")
+            call assertEqual(3, nullity(-sense*abs(one)), message="of one sign")
+            chain = 0.0_dp
+            do i = 1, 3
+                chain(i:i + 1, i:i + 1) = chain(i:i + 1, i:i + 1) + sense*springs(i)* &
+                                          reshape([1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp], [2, 2])
+            end do
+            call assertEqual(1, nullity(chain), message="a chain")
+            chain(1, 1) = chain(1, 1) + sense*0.1_dp
+            call assertEqual(0, nullity(chain), message="a chain that is held")
+        end do
+    end subroutine null_spaces_to_rounding
 
     subroutine stiffness_without_symmetry()
         !! \(K a = \omega^2 M a\) with the slow mode first; not where a force turns it around, nor
