@@ -31,6 +31,7 @@ contains
         call suite%addTest(TestMethod("starts", starts))
         call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
         call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
+        call suite%addTest(TestMethod("small_is_not_zero", small_is_not_zero))
         call suite%addTest(TestMethod("constants_have_converged", constants_have_converged))
         call suite%addTest(TestMethod("constants_at_some_states", constants_at_some_states))
     end function motion_statements_suite
@@ -191,6 +192,20 @@ contains
         call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; other "// &
                          "values are needed", error%message)
     end subroutine no_equilibrium
+
+    subroutine small_is_not_zero()
+        !! The accelerations of weak gravity are far below those that rounding leaves beside a
+        !! vertical wedge.
+        character(*), parameter :: weak = "set: g = 1e-16"//line_feed
+        character(*), parameter :: vertical = "set: alpha = 1.5707963267948966"//line_feed
+
+        call judged("pendulum", weak//"theta_ddot = -g/l sin(theta)", is_right)
+        call judged("pendulum", weak//"theta_ddot = 0", is_wrong)
+        call judged("pendulum", weak//"theta_ddot = -2 g/l sin(theta)", is_wrong)
+        call judged("wedge", vertical//"q2_ddot = 0", is_right)
+        call judged("wedge", vertical//"q1_ddot = g", is_right)
+        call judged("wedge", vertical//"q1_ddot = 0", is_wrong)
+    end subroutine small_is_not_zero
 
     subroutine constants_have_converged()
         !! All of them: a root of eightfold multiplicity gains a factor of 7/8 a step, so that 60

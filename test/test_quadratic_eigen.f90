@@ -59,6 +59,11 @@ contains
             call assertEqual(1, nullity(chain), message="a chain")
             chain(1, 1) = chain(1, 1) + sense*0.1_dp
             call assertEqual(0, nullity(chain), message="a chain that is held")
+            do i = 1, 100
+                one = sense*spread(sin(i*[1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp]), 2, 4)* &
+                      spread(exp(-i*u), 1, 4)
+                call assertEqual(3, nullity(one), message="of rank 1, too")
+            end do
         end do
     end subroutine null_spaces_to_rounding
 

@@ -110,6 +110,7 @@ contains
         call new_method("gauss16", 1e-13_dp, method)
         call verdicts%section("near_separatrix")
         call stress_separatrix(system, method, verdicts)
+        call assertEqual(5, count(index(verdicts%rows%measured, "run") > 0), "runs, to 1e-12")
         call check_all(verdicts, .true., "run", "pi - 1e-1; pi - 1e-3; pi - 1e-6; pi - 1e-9; "// &
                        "pi - 1e-12; pi - 1e-15")
         call stress_large_angles(system, method, verdicts)

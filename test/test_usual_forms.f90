@@ -275,6 +275,12 @@ contains
         call says("double_pendulum", "l2 theta2_ddot + l1 theta1_ddot cos(theta1 + theta2) - "// &
                   "l1 theta1_dot^2 sin(theta1 + theta2) + g sin(theta2) = 0", is_wrong, &
                   "'theta1 + theta2' must be 'theta1 - theta2' in all places")
+        call says("pendulum", "V = -2 m g l^2 cos(theta)", is_wrong, &
+                  "'2 m g l^2 cos(theta)' must be divided by 2 'l'")
+        call says("pendulum", "p_theta = 2 m l^2 g theta_dot", is_wrong, &
+                  "'2 m l^2 g theta_dot' must be divided by 2 'g'")
+        call says("pendulum", "p_theta = m l^2 g theta_dot", is_wrong, &
+                  "'m l^2 g theta_dot' has the factor 'g' too many")
         call says("pendulum", "T = 2 pi l/g", is_wrong, "a square root is missing behind '2 pi'")
         call says("rotating_hoop", "Omega = sqrt(g/r)", is_wrong, &
                   "squared: on the right is missing -omega^2")

@@ -50,6 +50,7 @@ contains
             -0.3_dp*0.9_dp, -0.8_dp*y, 0.8_dp*x, 0.8_dp*x**2*cos(0.3_dp), 0.0_dp], [2, 5])
         type(forced_t) :: mass
         type(hyperdual_t) :: f(2)
+        real(dp) :: found(2)
         integer :: i
 
         mass%ndof = 2
@@ -57,7 +58,8 @@ contains
             mass%force = i
             call mass%generalised_forces(hyperdual(0.3_dp), hyperdual([x, y]), &
                                          hyperdual([0.4_dp, 0.9_dp]), f)
-            call assertEqual(expected(:, i), f%re, 4.0_dp*epsilon(x), "force")
+            found = f%re
+            call assertEqual(expected(:, i), found, 4.0_dp*epsilon(x), "force")
         end do
     end subroutine forces_are_those_named
 

@@ -80,7 +80,7 @@ contains
             "of the modes of "//trim(d%name)//": it does not say where its masses are (positions)")
         if (allocated(error)) return
         name = label
-        call make_own_name(name, line%values_of("set"), d%parameters%name, &
+        call make_own_name(name, line%values_of("set"), (d%parameters%name), &
                            line%value_of("at", ""), title)
         stem = data_path(folder, name//"_modes.html", "text")
         page = stem
