@@ -32,9 +32,35 @@ contains
         call suite%addTest(TestMethod("a_coordinate_of_its_own", a_coordinate_of_its_own))
         call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
                                       three_masses_on_stiff_dashpots))
+        call suite%addTest(TestMethod("rounding_of_a_turning_force", rounding_of_a_turning_force))
         call suite%addTest(TestMethod("null_spaces_to_rounding", null_spaces_to_rounding))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
+
+    subroutine rounding_of_a_turning_force()
+        !! \(\ddot x = -kx - sy,\;\ddot y = sx - ky\): \(\lambda^2 = -k \pm is\). Eight units
+        !! in the last place of s, over \(2\omega\), may be lost of the real part.
+        real(dp), parameter :: one(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: k = 3.0_dp, s = 0.4_dp
+        real(dp) :: matrix(2, 2), d(2, 2)
+        complex(dp), allocatable :: lambda(:)
+        real(dp), allocatable :: lost(:)
+        type(error_t), allocatable :: error
+        integer :: j, sense
+
+        d = 0.0_dp
+        do sense = -1, 1, 2
+            matrix = reshape([k, -sense*s, sense*s, k], [2, 2])
+            call quadratic_eigenvalues(one, d, matrix, lambda, error, lost)
+            call assertFalse(allocated(error), "exponents")
+            do j = 1, size(lambda)
+                call assertEqual(-k, real(lambda(j)**2), rounding, "its square")
+                call assertEqual(s, abs(aimag(lambda(j)**2)), rounding, "and how it grows")
+                call assertEqual(4.0_dp*epsilon(s)*s/abs(aimag(lambda(j))), lost(j), &
+                                 1e-6_dp*epsilon(s), "what rounding does")
+            end do
+        end do
+    end subroutine rounding_of_a_turning_force
 
     subroutine null_spaces_to_rounding()
         !! Products of a column and a row of either sign, of which one or two are added; springs

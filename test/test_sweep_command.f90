@@ -1,6 +1,6 @@
 module test_sweep_command
-    !! What a sweep leaves that does not come to its end: blocks of trajectories, if any is complete,
-    !! with which another goes on; else nothing.
+    !! What a sweep leaves that does not come to its end: blocks of trajectories with which another
+    !! goes on, if any is complete; else nothing.
     use, intrinsic :: iso_c_binding, only: c_int
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_command_line, only: command_line_t, parse_words
