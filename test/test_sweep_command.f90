@@ -110,8 +110,9 @@ contains
         call sweep(of_500, new_folder("no_block"), error)
         status = 1
         if (.not. allocated(error)) return
-        if (index(error%message//"|", "_sweep.dat.part': File too large|") > 0) &
+        if (index(error%message//"|", "_sweep.dat.part': File too large|") > 0) then
             status = error%status
+        end if
     end function without_any_room
 
     subroutine what_a_full_disk_has_is_kept()
@@ -142,8 +143,9 @@ contains
         call sweep(of_500, new_folder("full_disk"), error)
         status = 1
         if (.not. allocated(error)) return
-        if (index(error%message, " trajectories are kept in '"//new_folder("full_disk")// &
-                  "/") > 0 .and. index(error%message, "_sweep.dat.part', '--resume' goes on") > 0) &
+        if (index(error%message, " trajectories are kept in '"//new_folder("full_disk")//"/") > 0 &
+            .and. index(error%message, "_sweep.dat.part', '--resume' goes on") > 0) then
             status = error%status
+        end if
     end function without_room
 end module test_sweep_command

@@ -226,7 +226,8 @@ contains
                             "set: g = 9.81"//line_feed// &
                             "L = m l^2 theta_dot^2 + m g l cos(theta)", "sheet", homework, error)
         call grade_with_settings(homework, system, result, error)
-        call assertEqual([is_wrong, is_consequence], result%of%verdict, message="verdicts")
+        call assertEqual(is_wrong, result%of(1)%verdict, "a mistake")
+        call assertEqual(is_consequence, result%of(2)%verdict, "what follows")
         call assertEqual("from line 2, which is wrong", result%of(2)%remark)
     end subroutine mistakes_before_a_setting
 
