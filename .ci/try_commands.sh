@@ -922,6 +922,7 @@ refuses 2 "unknown name 'thetadot'; did you mean 'theta_dot'?" describe "$spring
 refuses 2 "--set goes with one scene" check "$spring" pendulum --set spring_pendulum%k=2
 refuses 2 "--set goes with one scene" check methods --set pendulum%l=2
 refuses 2 "--set pendulum%l=-1: &pendulum: l = -1: greater than 0.0 is needed" check pendulum --set pendulum%l=-1
+refuses 2 "pendulum: m = 1e80: 'check' takes 0 and sizes from 1e-75 to 1e75, of which fourth powers" check pendulum --set pendulum%m=1e80
 refuses 2 "event_columns, ...; 'lagrangia describe scene' has all" run pendulum --set scene%foo=1
 chain="lagrangia describe hanging_chain --set hanging_chain%n=10"
 refuses 2 "theta4_dot, ...; '$chain' has all" run hanging_chain --set scene%columns=foo

@@ -184,7 +184,8 @@ page plain describe driven_pendulum --set driven_pendulum%b=0.1
 { # equations that are too long to be printed
     echo "&scene system = 'long', dt = 0.1, duration = 1.0, q = 1.0 /"
     echo "&lagrangian coordinates = 'x [m] place', parameters = 'm [kg] mass', 'k [J] strength', 'b [kg/s] drag',"
-    echo "L = 'm/2 x_dot^2 + k ($(printf 'sin(1.%d1 x) + ' {1..40})cos(x))', Q_x = '-b x_dot' /"
+    echo "L = 'm/2 x_dot^2 + k ($(printf 'sin(1.%d1 x) + ' {1..40})cos(x))', Q_x = '-b x_dot',"
+    echo "quantities = 'sum = $(printf 'sin(1.%d1 x) + ' {1..9})cos(x)' /"
     echo "&long m = 2.0, k = 0.1, b = 0.2 /"
 } >"$work/long.nml"
 keep describe a long L < <("$program" describe "$work/long.nml" 2>&1 | plain)

@@ -1,18 +1,24 @@
 module test_accuracy
     !! What a run says of its error, beside the truth.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
-                     assertLessThan, assertLessThanOrEqual
-    use lagrangia_accuracy, only: agreement, estimate
+                     assertFalse, assertLessThan, assertLessThanOrEqual
+    use lagrangia_accuracy, only: agreement, estimate, plan_finer, state_accuracy
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_final_state, only: final_state_t
+    use lagrangia_final_values, only: final_value_t
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, method_names
+    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
+    use lagrangia_trajectory_plan, only: trajectory_plan_t
     use scene_runs, only: plan_and_run
     use stated_text, only: read_concise
     implicit none (type, external)
@@ -39,6 +45,10 @@ contains
         call suite%addTest(TestMethod("what_does_not_shrink_is_not_trusted", &
                                       what_does_not_shrink_is_not_trusted))
         call suite%addTest(TestMethod("the_latest_change_counts", the_latest_change_counts))
+        call suite%addTest(TestMethod("who_lingers_is_not_trusted", who_lingers_is_not_trusted))
+        call suite%addTest(TestMethod("small_distances_are_trusted", small_distances_are_trusted))
+        call suite%addTest(TestMethod("finer_steps_are_not_halves", finer_steps_are_not_halves))
+        call suite%addTest(TestMethod("an_estimate_is_doubled", an_estimate_is_doubled))
     end function accuracy_suite
 
     subroutine fixed_steps_know_their_error()
@@ -123,6 +133,147 @@ contains
         call assertEqual([72.0_dp, 16.0_dp], agreement(-first, -second, [0.0_dp, 2.0_dp], -other, &
                          most, 16.0_dp, .true.), 1e-12_dp, "and of the other end")
     end subroutine the_latest_change_counts
+
+    subroutine who_lingers_is_not_trusted()
+        !! Where each velocity is within a hundredth of its largest, and each acceleration within
+        !! \(v^2/100q\) of the largest, the error is ten times: at either bound, from either side, a
+        !! coordinate that never moved beside. The end is off by half a metre.
+        real(dp), parameter :: still(3) = 0.0_dp, near(2) = [1.0_dp - 1e-9_dp, 1.0_dp + 1e-9_dp]
+        real(dp) :: errors(6, 2)
+        integer :: i, k
+
+        do i = -1, 1, 2
+            do k = 1, 2
+                call state_errors("0, 0, 0", [1.5_dp, 0.0_dp, 0.0_dp], &
+                                  i*[0.02_dp*near(k), 0.0_dp, 0.0_dp], [2.0_dp, 1.0_dp, 0.0_dp], &
+                                  [2.0_dp, 1.0_dp, 0.0_dp], errors(:, k))
+            end do
+            call assertEqual(10.0_dp*errors(:, 2), errors(:, 1), 1e-6_dp, "the first velocity")
+            do k = 1, 2
+                call state_errors("0, 0, 0", [1.5_dp, 0.0_dp, 0.0_dp], &
+                                  i*[0.0_dp, 0.01_dp*near(k), 0.0_dp], [2.0_dp, 1.0_dp, 0.0_dp], &
+                                  [2.0_dp, 1.0_dp, 0.0_dp], errors(:, k))
+            end do
+            call assertEqual(10.0_dp*errors(:, 2), errors(:, 1), 1e-6_dp, "the second velocity")
+            do k = 1, 2
+                call state_errors(merge("-0.02, 0, 0", " 0.02, 0, 0", i < 0), &
+                                  [1.5_dp, 0.0_dp, 0.0_dp], still, &
+                                  [4.5_dp*near(k), 1.0_dp, 0.0_dp], [3.0_dp, 1.0_dp, 0.0_dp], &
+                                  errors(:, k))
+            end do
+            call assertEqual(10.0_dp*errors(:, 2), errors(:, 1), 1e-6_dp, "the first acceleration")
+            do k = 1, 2
+                call state_errors(merge("0, -0.02, 0", "0,  0.02, 0", i < 0), &
+                                  [1.5_dp, 0.0_dp, 0.0_dp], still, &
+                                  [2.0_dp, 4.5_dp*near(k), 0.0_dp], [1.0_dp, 3.0_dp, 0.0_dp], &
+                                  errors(:, k))
+            end do
+            call assertEqual(10.0_dp*errors(:, 2), errors(:, 1), 1e-6_dp, "the second acceleration")
+            call assertGreaterThan(errors(1, 2), 0.4_dp, message="half a metre")
+        end do
+    end subroutine who_lingers_is_not_trusted
+
+    subroutine small_distances_are_trusted()
+        !! Of what never moves, too, up to 1e-10 of the largest value.
+        real(dp), parameter :: still(3) = 0.0_dp, off(2) = [0.99e-10_dp, 1.01e-10_dp]
+        real(dp) :: errors(6, 2)
+        integer :: i, k
+
+        do i = -1, 1, 2
+            do k = 1, 2
+                call state_errors("0, 0, 0", [1.0_dp + i*off(k), 0.0_dp, 0.0_dp], still, &
+                                  [1.0_dp, 0.0_dp, 0.0_dp], still, errors(:, k))
+            end do
+            call assertEqual([0.99e-10_dp, 1.01e-9_dp], errors(1, :), 1e-13_dp, "below and above")
+        end do
+    end subroutine small_distances_are_trusted
+
+    subroutine finer_steps_are_not_halves()
+        !! Of n = 10 steps, or of 10 and a part, 2 n + 1, and twice that and one again; each is seen
+        !! as often as the steps that it refines.
+        call check("0.1", 10)
+        call check("0.098", 10)
+        call check("0.0953", 10)
+        call check("0.25", 4)
+    contains
+        subroutine check(dt, n)
+            character(*), intent(in) :: dt
+            integer, intent(in) :: n
+            type(run_plan_t) :: plan
+            type(trajectory_plan_t) :: finer(2)
+            type(error_t), allocatable :: error
+            integer :: k
+
+            call parse_run_plan(plan, "&scene system = 'pendulum', method = 'rk4', q = 1, dt = "// &
+                                dt//", duration = 1, every = 2, columns = 't' /", "s.nml", &
+                                [word_t ::], error)
+            call assertFalse(allocated(error), "a good scene")
+            if (allocated(error)) return
+            call plan_finer(plan%settled, plan%system, finer, error)
+            call assertFalse(allocated(error), "finer")
+            if (allocated(error)) return
+            do k = 1, 2
+                call assertEqual(int(2**k*(n + 1) - 1, i8), finer(k)%times%step_count(), dt)
+                call assertEqual(2_i8*2_i8**k, finer(k)%times%every, dt)
+            end do
+        end subroutine check
+    end subroutine finer_steps_are_not_halves
+
+    subroutine an_estimate_is_doubled()
+        !! Where no other method is asked, as across impacts, the distance to the finer runs counts
+        !! twice: half a metre of a ball that falls.
+        type(final_state_t) :: seen
+        real(dp) :: errors(2)
+
+        seen%q = [10.0_dp - 0.5_dp*9.81_dp + 0.5_dp]
+        seen%v = [-9.81_dp]
+        seen%q_most = [10.0_dp]
+        seen%v_most = [9.81_dp]
+        call errors_after_a_second("system = 'bouncing_ball', q = 10", "&bouncing_ball", seen, &
+                                   errors)
+        call assertEqual(1.0_dp, errors(1), 1e-12_dp, "twice half a metre")
+    end subroutine an_estimate_is_doubled
+
+    subroutine state_errors(force, q, v, q_most, v_most, errors)
+        !! Of a particle of 1 kg that was at rest at (1 m, 0, 0), if it is seen so after a second.
+        character(*), intent(in) :: force                        !! per charge of 1 C
+        real(dp), intent(in) :: q(3), v(3), q_most(3), v_most(3)
+        real(dp), intent(out) :: errors(6)
+        type(final_state_t) :: seen
+
+        seen%q = q
+        seen%v = v
+        seen%q_most = q_most
+        seen%v_most = v_most
+        call errors_after_a_second("system = 'charged_particle', q = 1, 0, 0", &
+                                   "&charged_particle magnetic = 0, 0, 0, electric = "//force, &
+                                   seen, errors)
+    end subroutine state_errors
+
+    subroutine errors_after_a_second(start, parameters, seen, errors)
+        !! What is stated of a final state, beside finer runs that are exact.
+        character(*), intent(in) :: start, parameters  !! of the scene and of the system
+        type(final_state_t), intent(inout) :: seen     !! gets its time
+        real(dp), intent(out) :: errors(:)
+        class(observer_t), pointer :: nobody
+        class(reference_t), allocatable :: none
+        type(run_plan_t) :: plan
+        type(final_value_t), allocatable :: state(:)
+        type(error_t), allocatable :: error
+
+        errors = -1.0_dp
+        nobody => null()
+        call parse_run_plan(plan, "&scene "//start//", method = 'rk4', dt = 0.1, duration = 1, "// &
+                            "columns = 't', error_estimate = .true. / "//parameters//" /", &
+                            "s.nml", [word_t ::], error)
+        call assertFalse(allocated(error), "a good scene")
+        if (allocated(error)) return
+        seen%t = 1.0_dp
+        call state_accuracy(plan%settled, plan%system, none, plan%finer, seen, 10_i8, nobody, &
+                            state, error)
+        call assertFalse(allocated(error), "the finer runs")
+        if (.not. allocated(error)) errors = state%error
+    end subroutine errors_after_a_second
 
     subroutine check_method(name, adaptive, shortest, longest, only_digits, systems, draws)
         !! Random scenes of every solved system that the method takes. The error of a state

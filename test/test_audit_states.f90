@@ -10,6 +10,7 @@ module test_audit_states
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
     use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_pendulum, only: pendulum_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: default_values, system_t
@@ -31,6 +32,7 @@ contains
         call suite%addTest(TestMethod("a_force_on_one_coordinate_is_seen", &
                                       a_force_on_one_coordinate_is_seen))
         call suite%addTest(TestMethod("sizes_of_rates", sizes_of_rates))
+        call suite%addTest(TestMethod("rates_of_a_fast_motion", rates_of_a_fast_motion))
         call suite%addTest(TestMethod("one_value_of_1e_20", one_value_of_1e_20))
         call suite%addTest(TestMethod("frequencies_too_far_apart_to_judge", &
                                       frequencies_too_far_apart_to_judge))
@@ -51,6 +53,19 @@ contains
         call assertEqual(1.0_dp + 2*0.84_dp, scale, 1e-10_dp, "what adds up to that")
         call assertTrue(1e-16_dp < noise .and. noise < 1e-11_dp, "noise")
     end subroutine sizes_of_rates
+
+    subroutine rates_of_a_fast_motion()
+        !! At \(10^8\) rad/s the steps are so short that the angle does not go round: drag takes
+        !! \(b\dot\theta^2\), of what gravity and the mass have beside that.
+        type(pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: rate, scale
+
+        call system%configure([1.0_dp, 1.0_dp, 1e16_dp, 1e8_dp], error)
+        call assertFalse(allocated(error), "parameters")
+        call flow_derivative(system, 0, 0.0_dp, [0.7_dp], [1e8_dp], rate, scale)
+        call assertEqual(-1e24_dp, rate, 1e-9_dp*1e24_dp, "the energy's")
+    end subroutine rates_of_a_fast_motion
 
     subroutine audited(formulas, audit)
         !! The audit of a system in formulas, as `check` does it with a scene.

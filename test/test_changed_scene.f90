@@ -25,6 +25,7 @@ contains
         suite = TestSuite("changed_scene")
         call suite%addTest(TestMethod("another_motion_is_another_scene", &
                                       another_motion_is_another_scene))
+        call suite%addTest(TestMethod("blanks_between_words_stay", blanks_between_words_stay))
         call suite%addTest(TestMethod("the_same_motion_is_the_same_scene", &
                                       the_same_motion_is_the_same_scene))
         call suite%addTest(TestMethod("parameters_keep_their_letters", &
@@ -98,6 +99,25 @@ contains
         call assertEqual("A top (I1=2, b(2)=3, dt=0.1)", trim(scene%title))
         call assertEqual("top_I1_2_b_2__3_dt_0.1", trim(scene%output))
     end subroutine parameters_keep_their_letters
+
+    subroutine blanks_between_words_stay()
+        !! One of them, also before a last letter; those beside other signs and at the ends go.
+        character(24), parameter :: typed(8) = [character(24) :: "2 k", " k  x ", "2 k + 3 k x", &
+            "- k", "(2) k", "k -", "'a  b ' // c", "b  a .5"]
+        character(24), parameter :: shown(8) = [character(24) :: "2 k", "k x", "2 k+3 k x", &
+            "-k", "(2)k", "k-", "'a  b '//c", "b a .5"]
+        type(scene_t) :: scene
+        type(word_t) :: words(1)
+        integer :: i
+
+        allocate (scene%expectations(0))
+        do i = 1, size(typed)
+            scene%title = "A top"
+            words(1)%text = "top%b="//typed(i)
+            call make_own_scene(scene, words, ["b"])
+            call assertEqual("A top (b="//trim(shown(i))//")", trim(scene%title))
+        end do
+    end subroutine blanks_between_words_stay
 
     subroutine the_same_motion_is_the_same_scene()
         !! Other columns, another name, fewer rows.

@@ -1,16 +1,21 @@
 module test_lanes
-    !! The accelerations of eight states at once are those of the eight states.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual
+    !! The accelerations of eight states at once are those of the eight states; where steps of eight
+    !! trajectories at once may have taken an angle.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: description_t
+    use lagrangia_dop853_lanes, only: dop853_lanes_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_scene, only: scene_t
     use lagrangia_system, only: lanes, system_t
     use plain_system, only: plain_system_t
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
     private
     public :: lanes_suite
+
+    real(dp), parameter :: pi = acos(-1.0_dp)
 
 contains
 
@@ -24,6 +29,7 @@ contains
         call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel))
         call suite%addTest(TestMethod("a_chain_too_long_for_the_stack", &
                                       a_chain_too_long_for_the_stack))
+        call suite%addTest(TestMethod("an_angle_may_flip", an_angle_may_flip))
     end function lanes_suite
 
     subroutine lanes_are_single_states()
@@ -116,4 +122,49 @@ contains
             deallocate (q, v, a, each)
         end do
     end subroutine a_chain_too_long_for_the_stack
+
+    subroutine an_angle_may_flip()
+        !! From either end of a step, as far as the larger velocity reaches, which is exactly pi or
+        !! a last digit less; not in a lane that has not moved.
+        real(dp), parameter :: under = nearest(pi, -1.0_dp), fast = 2.0_dp*(pi - 2.0_dp)
+        real(dp), parameter :: old(lanes) = [0.0_dp, 0.0_dp, -pi, -under, 1.0_dp, 1.0_dp, 2.0_dp, &
+                                             pi]
+        real(dp), parameter :: new(lanes) = [pi, -under, 0.0_dp, 0.0_dp, 2.0_dp, -2.0_dp, 1.0_dp, &
+                                             pi]
+        real(dp), parameter :: v_old(lanes) = [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, &
+                                               -fast*(1.0_dp - 1e-9_dp), -1.1_dp*fast, fast]
+        real(dp), parameter :: v_new(lanes) = [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, &
+                                               fast*(1.0_dp + 1e-9_dp), 0.0_dp, 1.0_dp, fast]
+        logical, parameter :: may(lanes) = [.true., .false., .true., .false., .true., .false., &
+                                            .true., .false.]
+        type(dop853_lanes_t) :: method
+        type(plain_system_t) :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        integer :: i
+
+        call system%configure([real(dp) ::], error)
+        scene%q = [0.1_dp, 0.1_dp]
+        scene%v = [0.0_dp, 0.0_dp]
+        scene%duration = 1.0_dp
+        scene%tolerance = 1e-6_dp
+        call method%prepare(system)
+        do i = 1, lanes - 1
+            call method%begin(system, i, scene)
+        end do
+        call method%step(system)
+        call assertTrue(all(method%t(:lanes - 1) > 0.0_dp), "they have moved")
+        method%t_old = 10.0_dp
+        method%t = 10.5_dp
+        method%y_old = 0.0_dp
+        method%y = 0.0_dp
+        do i = -1, 1, 2  ! to either side
+            method%y_old(:, 2) = i*old
+            method%y(:, 2) = i*new
+            method%y_old(:, 4) = i*v_old
+            method%y(:, 4) = i*v_new
+            call assertEqual(may, method%may_flip(2), message="lanes")
+            call assertFalse(any(method%may_flip(1)), "the other angle")
+        end do
+    end subroutine an_angle_may_flip
 end module test_lanes

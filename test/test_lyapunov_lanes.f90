@@ -5,6 +5,7 @@ module test_lyapunov_lanes
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_lyapunov, only: displace
     use lagrangia_lyapunov_lanes, only: compute_exponents
     use lagrangia_sweep, only: fits_lanes, follows_displacements, sweep_t
     use lagrangia_sweep_trajectory, only: compute_one
@@ -34,6 +35,7 @@ contains
 
         suite = TestSuite("lyapunov_lanes")
         call suite%addTest(TestMethod("exponents_that_are_known", exponents_that_are_known))
+        call suite%addTest(TestMethod("displacements_have_length_1", displacements_have_length_1))
         call suite%addTest(TestMethod("those_of_one_at_a_time", those_of_one_at_a_time))
         call suite%addTest(TestMethod("ueda", ueda))
         call suite%addTest(TestMethod("chaos_by_two_methods", chaos_by_two_methods))
@@ -44,6 +46,24 @@ contains
         call suite%addTest(TestMethod("what_is_refused_alone", what_is_refused_alone))
         call suite%addTest(TestMethod("what_fits", what_fits))
     end function lyapunov_lanes_suite
+
+    subroutine displacements_have_length_1()
+        !! Whatever the state is, unless the measuring begins later: one in no plane of symmetry.
+        real(dp), parameter :: first(4) = [1.0_dp/2, 1.0_dp/3, -1.0_dp/3, 1.0_dp/4]
+        real(dp) :: q(4), v(4)
+        integer :: sense
+
+        do sense = -1, 1, 2
+            call displace(sense*[3.0_dp, 5.0_dp], sense*[7.0_dp, 11.0_dp], .true., q, v)
+            call assertEqual(sense*[3.0_dp, 5.0_dp, 7.0_dp, 11.0_dp], [q(:2), v(:2)], 0.0_dp, &
+                             "the state")
+            call assertEqual(first, [q(3:), v(3:)], 1e-15_dp, "it settles")
+            call displace(sense*[3.0_dp, 5.0_dp], sense*[7.0_dp, 11.0_dp], .false., q, v)
+            call assertEqual(sense*[3.0_dp, 5.0_dp, 7.0_dp, 11.0_dp], [q(:2), v(:2)], 0.0_dp, &
+                             "the state")
+            call assertEqual(first/norm2(first), [q(3:), v(3:)], 1e-15_dp, "of length 1")
+        end do
+    end subroutine displacements_have_length_1
 
     subroutine compute(sweep, values, failed)
         !! All trajectories, in lanes.

@@ -7,8 +7,11 @@ module test_mode_picture
     use lagrangia_kinds, only: dp
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
     use lagrangia_mode_script, only: is_mass, is_rod, is_way
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use test_scratch, only: contents, new_folder, remove_file
     implicit none (type, external)
     private
@@ -23,18 +26,22 @@ contains
         suite = TestSuite("mode_picture")
         call suite%addTest(TestMethod("rods_stay_rods", rods_stay_rods))
         call suite%addTest(TestMethod("what_has_no_rods", what_has_no_rods))
+        call suite%addTest(TestMethod("masses_at_one_place_have_no_rod", &
+                                      masses_at_one_place_have_no_rod))
         call suite%addTest(TestMethod("a_panel_a_mode", a_panel_a_mode))
         call suite%addTest(TestMethod("what_stands_is_drawn_once", what_stands_is_drawn_once))
         call suite%addTest(TestMethod("carts_and_springs_are_drawn", carts_and_springs_are_drawn))
     end function mode_picture_suite
 
-    subroutine draw(name, at, rows, script)
+    subroutine draw(name, at, rows, script, scene_text)
         !! The rows of the picture of a system's modes, and its script.
         character(*), intent(in) :: name
         real(dp), intent(in) :: at(:)
         real(dp), allocatable, intent(out) :: rows(:, :)
         character(:), allocatable, intent(out) :: script
+        character(*), intent(in), optional :: scene_text  !! of a system of its own
         class(system_t), allocatable :: system
+        type(scene_t) :: scene
         type(modes_t) :: modes
         type(error_t), allocatable :: error
         character(:), allocatable :: folder, path, text
@@ -43,7 +50,13 @@ contains
 
         allocate (rows(9, 0))
         script = ""
-        call new_system(name, system, error)
+        if (present(scene_text)) then
+            call parse_scene(scene_text, "text", [word_t ::], scene, system, error)
+        else
+            call new_system(name, system, error)
+        end if
+        call assertFalse(allocated(error), name)
+        if (anyExceptions()) return
         call assertTrue(has_positions(system), name)
         call find_modes(system, at, .true., modes, error)
         call assertFalse(allocated(error), name)
@@ -111,6 +124,25 @@ contains
             end do
         end do
     end subroutine rods_stay_rods
+
+    subroutine masses_at_one_place_have_no_rod()
+        !! Two on a spring, and one at the end of a rod of 0.5 m that slides with them.
+        real(dp), allocatable :: rods(:, :), rows(:, :)
+        character(:), allocatable :: script
+        integer :: side
+
+        call draw("twins", [0.0_dp], rows, script, "&scene system = 'twins', dt = 0.1, "// &
+                  "duration = 1, q = 0.1 / &lagrangian coordinates = 'x', "// &
+                  "parameters = 'm', 'k', V = 'k x^2/2', "// &
+                  "positions = 'a, m: x, 0', 'b, m: x, 0', 'c, m: x, 0.5' / "// &
+                  "&twins m = 1, k = 2 /")
+        if (anyExceptions()) return
+        do side = -1, 1
+            rods = chosen(rows, 1, side, is_rod)
+            call assertEqual(2, size(rods, 2), message="from either twin")
+            call assertEqual([0.5_dp, 0.5_dp], norm2(rods(7:9, :), 1), 1e-14_dp, "of 0.5 m")
+        end do
+    end subroutine masses_at_one_place_have_no_rod
 
     subroutine what_stands_is_drawn_once()
         !! A hoop does not swing: it is drawn at rest, and only its bead to either side.

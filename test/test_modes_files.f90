@@ -3,17 +3,21 @@ module test_modes_files
     !! left where it cannot be written.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
+    use lagrangia_command_line, only: command_line_t, parse_words
+    use lagrangia_console, only: flush_console
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, status_file
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: dp
+    use lagrangia_modes_command, only: modes_command
     use lagrangia_modes_files, only: prepare_modes, size_of_modes, write_mode
+    use lagrangia_registry, only: options
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, is_zero_mode, &
                                             modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: to_text, word_t
     use test_scratch, only: contents, exit_status, limit_file_size, new_folder, remove_file, &
-                            write_file
+                            send_stdout_to, write_file
     implicit none (type, external)
     private
     public :: modes_files_suite
@@ -33,7 +37,55 @@ contains
         call suite%addTest(TestMethod("a_shape_that_turns", a_shape_that_turns))
         call suite%addTest(TestMethod("what_cannot_be_written_leaves_nothing", &
                                       what_cannot_be_written_leaves_nothing))
+        call suite%addTest(TestMethod("differences_have_no_sign", differences_have_no_sign))
     end function modes_files_suite
+
+    subroutine differences_have_no_sign()
+        !! Of twenty double pendulums, whose modes differ from the closed form by rounding.
+        character(*), parameter :: mode = "oscillation"//newline
+        character(:), allocatable :: folder, text
+        real(dp) :: difference
+        integer :: last, modes, status
+
+        folder = new_folder("modes")
+        call assertEqual(0, exit_status(print_modes), message="printed")
+        text = contents(folder//"/out")
+        modes = 0
+        do
+            last = index(text, mode)
+            if (last == 0) exit
+            read (text(last - 9:last - 1), *, iostat=status) difference
+            call assertEqual(0, status, "a number: "//text(last - 9:last - 1))
+            call assertTrue(difference >= 0.0_dp .and. difference < 1e-14_dp, text(:last))
+            text = text(last + len(mode):)
+            modes = modes + 1
+        end do
+        call assertEqual(40, modes, "modes")
+        call assertTrue(remove_file(folder//"/out"), "what was printed")
+    end subroutine differences_have_no_sign
+
+    function print_modes() result(status)
+        !! To a file; 1 if it fails.
+        integer :: status
+        type(command_line_t) :: line
+        type(error_t), allocatable :: error
+        type(word_t) :: words(4)
+        integer :: i
+
+        status = 1
+        call send_stdout_to(new_folder("modes")//"/out")
+        words(1)%text = "modes"
+        words(2)%text = "double_pendulum"
+        words(3)%text = "--set"
+        do i = 1, 20
+            words(4)%text = "double_pendulum%l1=0."//to_text(20 + i)
+            call parse_words(words, options, line, error)
+            if (.not. allocated(error)) call modes_command(line, error)
+            if (allocated(error)) return
+        end do
+        call flush_console()
+        status = 0
+    end function print_modes
 
     subroutine swings()
         !! \(\omega^2 = g/\ell\), a tenth of the shape; in the two modes of the double pendulum with

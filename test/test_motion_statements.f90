@@ -31,7 +31,9 @@ contains
         call suite%addTest(TestMethod("starts", starts))
         call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
         call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
+        call suite%addTest(TestMethod("small_is_not_zero", small_is_not_zero))
         call suite%addTest(TestMethod("constants_have_converged", constants_have_converged))
+        call suite%addTest(TestMethod("constants_at_some_states", constants_at_some_states))
     end function motion_statements_suite
 
     subroutine motions()
@@ -191,6 +193,20 @@ contains
                          "values are needed", error%message)
     end subroutine no_equilibrium
 
+    subroutine small_is_not_zero()
+        !! The accelerations of weak gravity are far below those that rounding leaves beside a
+        !! vertical wedge.
+        character(*), parameter :: weak = "set: g = 1e-16"//line_feed
+        character(*), parameter :: vertical = "set: alpha = 1.5707963267948966"//line_feed
+
+        call judged("pendulum", weak//"theta_ddot = -g/l sin(theta)", is_right)
+        call judged("pendulum", weak//"theta_ddot = 0", is_wrong)
+        call judged("pendulum", weak//"theta_ddot = -2 g/l sin(theta)", is_wrong)
+        call judged("wedge", vertical//"q2_ddot = 0", is_right)
+        call judged("wedge", vertical//"q1_ddot = g", is_right)
+        call judged("wedge", vertical//"q1_ddot = 0", is_wrong)
+    end subroutine small_is_not_zero
+
     subroutine constants_have_converged()
         !! All of them: a root of eightfold multiplicity gains a factor of 7/8 a step, so that 60
         !! of them end 1e-4 beside it, where its equation holds to 1e-30.
@@ -219,4 +235,38 @@ contains
         call solve_constants(equations, [3, 4], values, regular)
         call assertTrue(regular .and. all(ieee_is_nan(values(:, 4))), "B has not converged")
     end subroutine constants_have_converged
+
+    subroutine constants_at_some_states()
+        !! A = 1/x follows where x is not 0. Newton's steps for \(\arctan(A - c) = 0\) lead to c
+        !! from no farther than 1.39: to either side of 0.3 there are other beginnings, from 0.7
+        !! less to 1.4 more.
+        character, parameter :: names(2) = ["x", "A"]
+        type(symbols_t) :: symbols
+        type(expression_t) :: equation(1)
+        type(error_t), allocatable :: error
+        real(dp) :: values(5, 2)
+        logical :: regular
+        integer :: i
+
+        do i = 1, size(names)
+            call symbols%add(names(i))
+        end do
+        call parse_formula("A x - 1", symbols, equation(1), error)
+        values(:, 1) = [0.0_dp, 0.5_dp, -2.0_dp, 0.0_dp, 4.0_dp]
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertTrue(regular, "somewhere")
+        call assertEqual([2.0_dp, -0.5_dp, 0.25_dp], values([2, 3, 5], 2), 1e-15_dp, "there")
+        call assertTrue(all(ieee_is_nan(values([1, 4], 2))), "elsewhere")
+        values(:, 1) = 0.0_dp
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertFalse(regular, "nowhere")
+        call parse_formula("atan(A - x)", symbols, equation(1), error)
+        values(:, 1) = [-3.0_dp, -1.6_dp, 0.3_dp, 3.0_dp, 4.0_dp]
+        values(:, 2) = 0.3_dp
+        call solve_constants(equation, [2], values, regular)
+        call assertEqual(values(2:4, 1), values(2:4, 2), 1e-14_dp, "near")
+        call assertTrue(all(ieee_is_nan(values([1, 5], 2))), "far")
+    end subroutine constants_at_some_states
 end module test_motion_statements

@@ -200,6 +200,8 @@ contains
         call failed(error, "a.nml:2:15: &a: dt has 1 value; 2 are needed")
         call get_reals(tree, "a", "h", 3, 3, q, error)
         call failed(error, "a.nml:2:8: &a: h: element 2 has no value")
+        call get_reals(tree, "a", "h", 4, 6, q, error)
+        call failed(error, "a.nml:2:8: &a: h: element 2 has no value")
         call get_real(tree, "a", "dt", x, error)
         call failed(error, &
                     "a.nml:2:15: &a: dt is a single value; write dt = value, without an index")
@@ -281,5 +283,7 @@ contains
         call failed(error, "--set a%m=0: &a: m = 0: must be positive")
         call refuse_value(tree, "a", "g", "must be positive", error)
         call failed(error, "a.nml:1:1: &a: g: must be positive")
+        call refuse_value(tree, "a", "g", "is no word", error, column=2)
+        call failed(error, "a.nml:1:1: &a: g: is no word")
     end subroutine values_the_caller_refuses
 end module test_namelist_values

@@ -8,7 +8,7 @@ module test_progress
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_part, only: part_t
-    use lagrangia_progress, only: about, pace, part_label, progress_line
+    use lagrangia_progress, only: about, pace, part_label, progress_line, progress_t
     use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene_run, only: run_scene
     use lagrangia_system, only: system_t
@@ -38,6 +38,7 @@ contains
         suite = TestSuite("progress")
         call suite%addTest(TestMethod("durations_have_their_unit", durations_have_their_unit))
         call suite%addTest(TestMethod("lines_say_how_far_it_is", lines_say_how_far_it_is))
+        call suite%addTest(TestMethod("a_new_run_has_its_name", a_new_run_has_its_name))
         call suite%addTest(TestMethod("parts_have_numbers", parts_have_numbers))
         call suite%addTest(TestMethod("a_part_counts_as_its_share", a_part_counts_as_its_share))
         call suite%addTest(TestMethod("an_estimate_is_of_the_whole", an_estimate_is_of_the_whole))
@@ -71,6 +72,18 @@ contains
         call assertEqual("p: 100 %, 3 s", progress_line("p", "", 3.0_dp, 8_i8, 7_i8))
         call assertEqual(", 2 h left", pace("", 7200.0_dp, 1_i8, 2_i8))
     end subroutine lines_say_how_far_it_is
+
+    subroutine a_new_run_has_its_name()
+        !! And nothing of it is shown yet, quiet or not.
+        type(progress_t) :: progress
+
+        call progress%restart("first")
+        call assertEqual("first", progress%label)
+        progress%shown = .true.
+        call progress%restart("second", .true.)
+        call assertEqual("second", progress%label)
+        call assertFalse(progress%shown, "a new run")
+    end subroutine a_new_run_has_its_name
 
     subroutine parts_have_numbers()
         !! Which part of how many; one alone has none.

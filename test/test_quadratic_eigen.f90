@@ -4,6 +4,7 @@ module test_quadratic_eigen
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
+    use lagrangia_regular_pencil, only: nullity
     use lagrangia_unsymmetric_modes, only: unsymmetric_modes
     implicit none (type, external)
     private
@@ -33,8 +34,66 @@ contains
         call suite%addTest(TestMethod("a_coordinate_of_its_own", a_coordinate_of_its_own))
         call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
                                       three_masses_on_stiff_dashpots))
+        call suite%addTest(TestMethod("rounding_of_a_turning_force", rounding_of_a_turning_force))
+        call suite%addTest(TestMethod("null_spaces_to_rounding", null_spaces_to_rounding))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
     end function quadratic_eigen_suite
+
+    subroutine rounding_of_a_turning_force()
+        !! \(\ddot x = -kx - sy,\;\ddot y = sx - ky\): \(\lambda^2 = -k \pm is\). Eight units
+        !! in the last place of s, over \(2\omega\), may be lost of the real part.
+        real(dp), parameter :: one(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: k = 3.0_dp, s = 0.4_dp
+        real(dp) :: matrix(2, 2), d(2, 2)
+        complex(dp), allocatable :: lambda(:)
+        real(dp), allocatable :: lost(:)
+        type(error_t), allocatable :: error
+        integer :: j, sense
+
+        d = 0.0_dp
+        do sense = -1, 1, 2
+            matrix = reshape([k, -sense*s, sense*s, k], [2, 2])
+            call quadratic_eigenvalues(one, d, matrix, lambda, error, lost)
+            call assertFalse(allocated(error), "exponents")
+            do j = 1, size(lambda)
+                call assertEqual(-k, real(lambda(j)**2), rounding, "its square")
+                call assertEqual(s, abs(aimag(lambda(j)**2)), rounding, "and how it grows")
+                call assertEqual(4.0_dp*epsilon(s)*s/abs(aimag(lambda(j))), lost(j), &
+                                 1e-6_dp*epsilon(s), "what rounding does")
+            end do
+        end do
+    end subroutine rounding_of_a_turning_force
+
+    subroutine null_spaces_to_rounding()
+        !! Products of a column and a row of either sign, of which one or two are added; springs
+        !! that hang on nothing; and a matrix without any null space.
+        real(dp), parameter :: u(4) = [0.1_dp, -0.7_dp, 1.3_dp, -1.0_dp/3.0_dp]
+        real(dp), parameter :: w(4) = [-1.1_dp, 0.3_dp, 0.9_dp, -0.7_dp]
+        real(dp), parameter :: springs(3) = [0.1_dp, 0.7_dp, 1.9_dp]
+        real(dp) :: one(4, 4), two(4, 4), chain(4, 4)
+        integer :: i, sense
+
+        do sense = -1, 1, 2
+            one = sense*spread(u, 2, 4)*spread(w, 1, 4)
+            two = one + sense*spread(w**2, 2, 4)*spread(u**3, 1, 4)
+            call assertEqual(3, nullity(one), message="of rank 1")
+            call assertEqual(2, nullity(two), message="of rank 2")
+            call assertEqual(3, nullity(-sense*abs(one)), message="of one sign")
+            chain = 0.0_dp
+            do i = 1, 3
+                chain(i:i + 1, i:i + 1) = chain(i:i + 1, i:i + 1) + sense*springs(i)* &
+                                          reshape([1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp], [2, 2])
+            end do
+            call assertEqual(1, nullity(chain), message="a chain")
+            chain(1, 1) = chain(1, 1) + sense*0.1_dp
+            call assertEqual(0, nullity(chain), message="a chain that is held")
+            do i = 1, 100
+                one = sense*spread(sin(i*[1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp]), 2, 4)* &
+                      spread(exp(-i*u), 1, 4)
+                call assertEqual(3, nullity(one), message="of rank 1, too")
+            end do
+        end do
+    end subroutine null_spaces_to_rounding
 
     subroutine stiffness_without_symmetry()
         !! \(K a = \omega^2 M a\) with the slow mode first; not where a force turns it around, nor

@@ -1,5 +1,6 @@
 module test_stress_systems
     !! The verdicts of `lagrangia stress` on systems: each is seen to hold, and to fail.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use careless_systems, only: careless_ball_t, careless_double_t, careless_pendulum_t, &
                                 careless_wedge_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
@@ -31,6 +32,12 @@ module test_stress_systems
         procedure :: accelerations => pushed
     end type saddle_t
 
+    type, extends(plain_system_t) :: chasm_t
+        !! Springs, which end where the first coordinate is less than 0.3.
+    contains
+        procedure :: accelerations => pulled
+    end type chasm_t
+
 contains
 
     function stress_systems_suite() result(suite)
@@ -46,6 +53,7 @@ contains
         call suite%addTest(TestMethod("chaos_takes_digits", chaos_takes_digits))
         call suite%addTest(TestMethod("the_time_of_no_digit_is_predicted", &
                                       the_time_of_no_digit_is_predicted))
+        call suite%addTest(TestMethod("who_gives_up_has_no_digit", who_gives_up_has_no_digit))
     end function stress_systems_suite
 
     subroutine check_all(verdicts, hold, what, cases)
@@ -102,6 +110,7 @@ contains
         call new_method("gauss16", 1e-13_dp, method)
         call verdicts%section("near_separatrix")
         call stress_separatrix(system, method, verdicts)
+        call assertEqual(5, count(index(verdicts%rows%measured, "run") > 0), "runs, to 1e-12")
         call check_all(verdicts, .true., "run", "pi - 1e-1; pi - 1e-3; pi - 1e-6; pi - 1e-9; "// &
                        "pi - 1e-12; pi - 1e-15")
         call stress_large_angles(system, method, verdicts)
@@ -248,6 +257,33 @@ contains
         call assertEqual(18.25_dp, verdicts%rows(2)%least, 0.0_dp, "half of it")
         call assertEqual(73.0_dp, verdicts%rows(2)%most, 0.0_dp, "twice of it")
     end subroutine the_time_of_no_digit_is_predicted
+
+    subroutine who_gives_up_has_no_digit()
+        !! \(2\cos t\) is 0.3 at 1.42 s: seen at 1.5 s, where the sample before was within 0.7 of
+        !! zero.
+        class(dense_integrator_t), allocatable :: method, other
+        type(chasm_t) :: system
+        type(ledger_t) :: verdicts
+        type(error_t), allocatable :: error
+
+        call system%configure([real(dp) ::], error)
+        call new_method("gauss16", 1e-13_dp, method)
+        call new_method("dop853", 1e-13_dp, other)
+        call verdicts%section("chasm")
+        call stress_chaos(system, method, other, 10.0_dp, verdicts)
+        call assertEqual(1.5_dp, verdicts%rows(2)%value, 0.0_dp, "the first sample without")
+        call assertEqual("up to t = 1.25 s", verdicts%rows(3)%remark)
+    end subroutine who_gives_up_has_no_digit
+
+    pure subroutine pulled(self, t, q, v, a)
+        !! See `chasm_t`.
+        class(chasm_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a = -q
+        if (q(1) < 0.3_dp) a = ieee_value(t, ieee_quiet_nan)
+    end subroutine pulled
 
     pure subroutine pushed(self, t, q, v, a)
         !! See `saddle_t`.

@@ -7,6 +7,7 @@ module test_sweep_scenes
     use lagrangia_kinds, only: dp
     use lagrangia_sweep, only: fits_lanes, sweep_t
     use sweep_numbers, only: compute_numbers, make_sweep, sweep_numbers_t
+    use test_sweep_command, only: sweep_command_suite
     implicit none (type, external)
     private
     public :: sweep_scenes_suite
@@ -23,6 +24,7 @@ contains
         call suite%addTest(TestMethod("computed_parameters_follow", computed_parameters_follow))
         call suite%addTest(TestMethod("stops_of_the_scene_stop", stops_of_the_scene_stop))
         call suite%addTest(TestMethod("no_exponent_where_it_stops", no_exponent_where_it_stops))
+        call suite%addTest(sweep_command_suite())
     end function sweep_scenes_suite
 
     subroutine compute(text, over, keep, result, error, sweep)

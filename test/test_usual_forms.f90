@@ -2,7 +2,12 @@ module test_usual_forms
     !! What students and answer keys write beside equations of motion: H and Hamilton's equations,
     !! U, p, v, T for a tension, rounded numbers, `~`, constants of the motion.
     use funit, only: TestMethod, TestSuite, assertEqual
-    use lagrangia_judgement, only: is_definition, is_right, is_wrong
+    use lagrangia_errors, only: error_t
+    use lagrangia_grading, only: grade_t
+    use lagrangia_homework, only: homework_t, parse_homework
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, is_wrong
+    use lagrangia_set_lines, only: grade_with_settings
+    use lagrangia_system, only: system_t
     use tried_responses, only: graded
     implicit none (type, external)
     private
@@ -23,6 +28,11 @@ contains
         call suite%addTest(TestMethod("frequencies_by_name", frequencies_by_name))
         call suite%addTest(TestMethod("nearly_equal", nearly_equal))
         call suite%addTest(TestMethod("rounded_numbers", rounded_numbers))
+        call suite%addTest(TestMethod("which_numbers_are_rounded", which_numbers_are_rounded))
+        call suite%addTest(TestMethod("orders_of_powers", orders_of_powers))
+        call suite%addTest(TestMethod("amplitudes_are_constants", amplitudes_are_constants))
+        call suite%addTest(TestMethod("mistakes_before_a_setting", mistakes_before_a_setting))
+        call suite%addTest(TestMethod("where_motions_begin", where_motions_begin))
         call suite%addTest(TestMethod("constants_of_the_motion", constants_of_the_motion))
         call suite%addTest(TestMethod("one_sign_of_a_root", one_sign_of_a_root))
         call suite%addTest(TestMethod("further_slips", further_slips))
@@ -152,6 +162,93 @@ contains
                   "term makes it right")
     end subroutine rounded_numbers
 
+    subroutine which_numbers_are_rounded()
+        !! omega is 31.0032 or 0.3132: a whole number is exact and one digit too few, and a number
+        !! may be the first thing typed, or begin with its point. Half a unit of the last digit is
+        !! allowed; 0.32 is off by 0.68.
+        character(*), parameter :: given = "set: g = 961.2"//line_feed//"set: l = 1"//line_feed
+        character(*), parameter :: small = "set: g = 0.0981"//line_feed//"set: l = 1"//line_feed
+
+        call says("pendulum", given//"omega = 31", is_wrong, "the left side is 31.003")
+        call says("pendulum", given//"omega = 31.0", is_right, "to the digits given")
+        call says("pendulum", given//"31.00 = omega", is_right, "to the digits given")
+        call says("pendulum", given//"omega = 31.1", is_wrong, "the left side is 31.0")
+        call says("pendulum", given//"omega = 1.00*31.0", is_right, "to the digits given")
+        call says("pendulum", given//"omega + 10.0*(1 - 1) = 31.02", is_wrong, &
+                  "the left side is 31.0")
+        call says("pendulum", small//"omega = .313", is_right, "to the digits given")
+        call says("pendulum", small//"omega = 0.31", is_right, "to the digits given")
+        call says("pendulum", small//"omega = 0.3", is_wrong, "the left side is 0.3132")
+        call says("pendulum", small//"omega = 0.32", is_wrong, "the left side is 0.3132")
+    end subroutine which_numbers_are_rounded
+
+    subroutine orders_of_powers()
+        !! An exponent 0 leaves a constant, one of a half halves the degree. What has a variable
+        !! exponent, or a fraction's, is no polynomial, and right to first order.
+        character(*), parameter :: third = "terms of order 3 are written, to which it does not "// &
+            "hold; it does to first order"
+
+        call says("pendulum", "sin(theta) ~ theta theta^0 - theta^3/6", is_right, "")
+        call says("pendulum", "sin(theta) ~ theta theta^0 - theta^3/3", is_wrong, third)
+        call says("pendulum", "sin(theta) ~ theta - (theta^6)^0.5/3", is_wrong, third)
+        call says("pendulum", "sin(theta) ~ theta - (theta^2)^1.5/3", is_wrong, third)
+        call says("pendulum", "l^2 sin(theta) ~ l^2 theta - l^2 theta^3/3", is_wrong, third)
+        call says("pendulum", "sin(theta) ~ theta - 2^theta theta^3/3", is_right, "")
+        call says("pendulum", "sin(theta) ~ theta - theta^3 (1 + theta^2)^(1/2)/3", is_right, "")
+    end subroutine orders_of_powers
+
+    subroutine amplitudes_are_constants()
+        !! What stands beside them may be a parameter; nothing that moves, nor the time.
+        character(*), parameter :: moving(6) = [character(11) :: "t", "theta1", "theta2", &
+            "theta1_dot", "theta1_ddot", "theta2_ddot"]
+        character(:), allocatable :: said
+        integer :: i, verdict
+
+        do i = 1, size(moving)
+            call graded("double_pendulum", "A_1 "//trim(moving(i))//" = A_2", verdict, said)
+            call assertEqual(is_unreadable, verdict, trim(moving(i))//": "//said)
+            call assertEqual(1, index(said, "column 1: unknown name 'A_1'"), said)
+        end do
+        call says("double_pendulum", "A_1 m1 = A_2", is_wrong, "in no normal mode")
+        call says("double_pendulum", "set: m1 = 1"//line_feed//"set: m2 = 1"//line_feed// &
+                  "set: l1 = 1"//line_feed//"set: l2 = 1"//line_feed//"A_1 m1 sqrt(2) = A_2 l1", &
+                  is_right, "of a normal mode")
+    end subroutine amplitudes_are_constants
+
+    subroutine mistakes_before_a_setting()
+        !! They are mistakes behind it, too, and excuse what follows from them.
+        type(homework_t) :: homework
+        type(grade_t) :: result
+        type(error_t), allocatable :: error
+        class(system_t), allocatable :: system
+
+        call parse_homework("system: pendulum"//line_feed//"T = m l^2 theta_dot^2"//line_feed// &
+                            "set: g = 9.81"//line_feed// &
+                            "L = m l^2 theta_dot^2 + m g l cos(theta)", "sheet", homework, error)
+        call grade_with_settings(homework, system, result, error)
+        call assertEqual(is_wrong, result%of(1)%verdict, "a mistake")
+        call assertEqual(is_consequence, result%of(2)%verdict, "what follows")
+        call assertEqual("from line 2, which is wrong", result%of(2)%remark)
+    end subroutine mistakes_before_a_setting
+
+    subroutine where_motions_begin()
+        !! A constant is the coordinate at the start, on either side of the sign. A place that a
+        !! motion does not begin at is wrong, but where a place was stated before.
+        character(*), parameter :: small = "small: theta = A cos(omega t)"//line_feed
+        character(*), parameter :: moves = "x = 2 cos(omega t)"//line_feed
+        character(*), parameter :: elsewhere = "the motion that a line writes out begins elsewhere"
+
+        call says("pendulum", small//"A = theta(0)", is_right, "")
+        call says("pendulum", small//"theta(0) = A", is_right, "")
+        call says("pendulum", small//"2 A = theta(0)", is_wrong, elsewhere)
+        call says("pendulum", "theta_0 = theta(0)", is_definition, &
+                  "an initial condition, of one motion of many")
+        call says("oscillator", "x_dot(0) = 0"//line_feed//moves//"x(0) = 0.1", is_wrong, elsewhere)
+        call says("oscillator", "x(0) = 2"//line_feed//moves//"x_dot(0) = 0.1", is_wrong, elsewhere)
+        call says("oscillator", "x(0) = 2"//line_feed//moves//"x(0) = 0.1", is_definition, &
+                  "an initial condition, of one motion of many")
+    end subroutine where_motions_begin
+
     subroutine constants_of_the_motion()
         call says("pendulum", "theta_dot^2/2 - g/l cos(theta) = C", is_right, "")
         call says("pendulum", "theta_dot^2/2 = g/l cos(theta) + const", is_right, "")
@@ -179,6 +276,12 @@ contains
         call says("double_pendulum", "l2 theta2_ddot + l1 theta1_ddot cos(theta1 + theta2) - "// &
                   "l1 theta1_dot^2 sin(theta1 + theta2) + g sin(theta2) = 0", is_wrong, &
                   "'theta1 + theta2' must be 'theta1 - theta2' in all places")
+        call says("pendulum", "V = -2 m g l^2 cos(theta)", is_wrong, &
+                  "'2 m g l^2 cos(theta)' must be divided by 2 'l'")
+        call says("pendulum", "p_theta = 2 m l^2 g theta_dot", is_wrong, &
+                  "'2 m l^2 g theta_dot' must be divided by 2 'g'")
+        call says("pendulum", "p_theta = m l^2 g theta_dot", is_wrong, &
+                  "'m l^2 g theta_dot' has the factor 'g' too many")
         call says("pendulum", "T = 2 pi l/g", is_wrong, "a square root is missing behind '2 pi'")
         call says("rotating_hoop", "Omega = sqrt(g/r)", is_wrong, &
                   "squared: on the right is missing -omega^2")

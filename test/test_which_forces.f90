@@ -1,8 +1,10 @@
 module test_which_forces
     !! Which forces have an L: the page's numbers by hand, its controls, its picture.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_report, only: report_t
+    use lagrangia_which_forces, only: forced_t
     use page_rows, only: check_row, new_page
     implicit none (type, external)
     private
@@ -18,6 +20,7 @@ contains
 
         suite = TestSuite("which_forces")
         call suite%addTest(TestMethod("by_hand", by_hand))
+        call suite%addTest(TestMethod("forces_are_those_named", forces_are_those_named))
         call suite%addTest(TestMethod("the_picture", the_picture))
     end function which_forces_suite
 
@@ -37,6 +40,28 @@ contains
                        1e-14_dp)
         call check_row(page, "damped", "f = 1", 0.3_dp, 0.0_dp, 1e-15_dp)
     end subroutine by_hand
+
+    subroutine forces_are_those_named()
+        !! Of 0.5 kg at \((0.7, -1.1)\) m with \((0.4, 0.9)\) m/s after 0.3 s: e B = 1.5 N s/m,
+        !! gamma = 0.6/s, c = 0.8 N/m.
+        real(dp), parameter :: x = 0.7_dp, y = -1.1_dp
+        real(dp), parameter :: expected(2, 5) = reshape([ &
+            -2.0_dp*x*y, sin(y) - x**2, 1.5_dp*0.9_dp, -1.5_dp*0.4_dp, -0.3_dp*0.4_dp, &
+            -0.3_dp*0.9_dp, -0.8_dp*y, 0.8_dp*x, 0.8_dp*x**2*cos(0.3_dp), 0.0_dp], [2, 5])
+        type(forced_t) :: mass
+        type(hyperdual_t) :: f(2)
+        real(dp) :: found(2)
+        integer :: i
+
+        mass%ndof = 2
+        do i = 1, 5
+            mass%force = i
+            call mass%generalised_forces(hyperdual(0.3_dp), hyperdual([x, y]), &
+                                         hyperdual([0.4_dp, 0.9_dp]), f)
+            found = f%re
+            call assertEqual(expected(:, i), found, 4.0_dp*epsilon(x), "force")
+        end do
+    end subroutine forces_are_those_named
 
     subroutine the_picture()
         !! The gradient's work is that of its potential, \(-x^2y - \cos y\), on the way as well.
