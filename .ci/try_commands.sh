@@ -145,6 +145,10 @@ run compare pendulum --starts "1 2 0:7" --quiet --output "$work/cmp"
 check "compare --starts: a phase portrait, angles within one turn" eval '[ $status -eq 0 ] && grep -q "set xrange \[-pi:pi\]" "$work/cmp/pendulum_starts.gp" && [ "$(grep "^[^#]" "$work/cmp/pendulum_start_3.dat" | head -n 1)" = " 0.0000000000000000E+000  0.0000000000000000E+000  7.0000000000000000E+000" ]'
 check "compare --starts: each title says its start" eval 'head -n 1 "$work/cmp/pendulum_start_1.dat" | grep -q "pendulum from q = 1$" && head -n 1 "$work/cmp/pendulum_start_3.dat" | grep -q "pendulum from q = 0, v = 7$" && grep -q "^set label 1 .*pendulum from q = 0, v = 7" "$work/cmp/pendulum_start_3.gp"'
 check "compare: the script names the files that it draws" eval '[ "$(head -n 1 "$work/cmp/pendulum_starts.gp")" = "# Draws pendulum_start_1.dat, pendulum_start_2.dat, pendulum_start_3.dat as they lie beside this script." ]'
+for words in "--methods rk4,verlet" "--starts 1\ 2"; do
+    eval run compare pendulum $words --set scene%output=first/try --quiet --output "$work/below"
+done
+check "compare: a scene's output may name a folder, the script lies there, too" eval '[ $status -eq 0 ] && [ "$(grep -h "^data.* = folder" "$work"/below/first/*_methods.gp "$work"/below/first/*_starts.gp | grep -o "\".*\"" | tr -d "\"" | while read -r name; do [ -s "$work/below/first/$name" ] && echo there; done | wc -l)" -eq 4 ]'
 run compare hanging_chain --methods rk4,gauss16 --set hanging_chain%n=5 --set scene%q=5*0.1 --set scene%v=5*0 --set scene%duration=0.1 --output "$work/cmp"
 check "compare: of many coordinates it says which are drawn" eval '[ $status -eq 0 ] && grep -qx "of 5 coordinates the files and the picture have the first 3" "$work/out"'
 run run rolling_disk rolling_disk_incline --set "scene%columns=t,x,y,theta,phi,x_dot,y_dot,theta_dot,phi_dot" --overlay --output "$work/cmp"

@@ -117,12 +117,15 @@ contains
     end subroutine events_are_found
 
     subroutine a_ball_bounces()
-        !! Dropped from 1/2 m it is back on its height after every 2 sqrt(2 h/g).
+        !! Dropped from 1/2 m it is back on its height after every 2 sqrt(2 h/g), by steps of
+        !! dt as by tolerance.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(recorder_t) :: found
         real(dp), allocatable :: q(:, :), v(:, :)
+        character(7), parameter :: methods(3) = ["rk4    ", "gauss16", "verlet "]
         real(dp) :: period
+        integer :: i
 
         call new_system("bouncing_ball", system, error)
         call system%configure([1.0_dp, 9.81_dp, 1.0_dp], error)
@@ -132,6 +135,14 @@ contains
         call assertFalse(allocated(error), "no error")
         call assertEqual(spread(0.5_dp, 1, 3), q(1, :), 1e-12_dp, "height")
         call assertEqual(2, found%events, "bounces")
+        do i = 1, size(methods)
+            call solve(system, trim(methods(i)), [0.0_dp, period, 2.0_dp*period], [0.5_dp], &
+                       [0.0_dp], q, v, error, dt=0.01_dp, found=found)
+            if (allocated(error)) call assertEqual("", error%message, methods(i))
+            if (anyExceptions()) return
+            call assertEqual(spread(0.5_dp, 1, 3), q(1, :), 1e-12_dp, methods(i)//": height")
+            call assertEqual(2, found%events, methods(i)//": bounces")
+        end do
     end subroutine a_ball_bounces
 
     subroutine constraints_hold_at_the_start()

@@ -85,8 +85,8 @@ contains
         call run_all(line, folder, format, runs, outcomes, error)
         if (allocated(error)) return
         do i = 1, size(runs)
-            call add_to_overlay(series(i), outcomes(i)%file, folder, runs(i)%plan%record, &
-                                runs(i)%name%text)
+            call add_to_overlay(series(i), outcomes(i)%file, overlay_path(folder, name), &
+                                runs(i)%plan%record, runs(i)%name%text)
         end do
         call common_panels(series, panels, trim(merge("starts", "time  ", line%has("starts"))), &
                            left_out, error)

@@ -243,7 +243,8 @@ contains
         title = ""
         do i = 1, size(chosen)
             associate (plan => chosen(i)%plan)
-                call add_to_overlay(series(i), plan%record%table%file%name(), folder, plan%record, &
+                call add_to_overlay(series(i), plan%record%table%file%name(), &
+                                    overlay_path(folder, overlay), plan%record, &
                                     trim(plan%scene%name)//" ("//trim(plan%settled%method)//")")
                 if (i > 1) title = title//", "
                 title = title//trim(plan%scene%name)

@@ -217,19 +217,17 @@ contains
         if (allocated(scene%file)) deallocate (scene%file)
     end subroutine unjudged
 
-    subroutine add_to_overlay(series, path, folder, record, name)
+    subroutine add_to_overlay(series, path, picture, record, name)
         !! One more data file.
         type(series_t), intent(inout) :: series       !! becomes that of the file
-        character(*), intent(in) :: path              !! of the data file, in the folder
-        character(*), intent(in) :: folder            !! of the picture
+        character(*), intent(in) :: path              !! of the data file, in the picture's folder
+        character(*), intent(in) :: picture           !! as `overlay_path` has it
         type(sample_record_t), intent(in) :: record   !! of the run, when it has ended
         character(*), intent(in) :: name              !! in the legend
-        integer :: first
 
-        first = len_trim(data_path(folder, "x.x", "text")) - len("x.x") + 1
-        call new_series(series, path(first:), record%table%reading(), &
-                        record%columns%names(record%shown), record%columns%units(record%shown), &
-                        record%ranges, name)
+        call new_series(series, path(index(picture, "/", back=.true.) + 1:), &
+                        record%table%reading(), record%columns%names(record%shown), &
+                        record%columns%units(record%shown), record%ranges, name)
     end subroutine add_to_overlay
 
     subroutine common_panels(series, panels, over, left_out, error)

@@ -87,7 +87,7 @@ contains
     end subroutine choose_method
     subroutine plan_steps(scene, system, plan, error, closed_form)
         !! The start, the times, and the scene's method, ready for the system. Where there are
-        !! events, a method of fixed step is made dense.
+        !! events or contacts, a method of fixed step is made dense.
         type(scene_t), intent(in) :: scene              !! its method is not `auto`
         class(system_t), intent(in) :: system  !! with the scene's parameters
         type(trajectory_plan_t), intent(out) :: plan    !! still without its events
@@ -126,7 +126,7 @@ contains
         else
             call new_integrator(trim(scene%method), fixed, error, scene%compensated)
             if (allocated(error)) return
-            if (allocated(scene%events)) then
+            if (allocated(scene%events) .or. system%contacts > 0) then
                 call new_stepwise(stepwise, fixed, scene%dt)
                 allocate (plan%integrator, source=stepwise)
             else
