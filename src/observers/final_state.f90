@@ -15,6 +15,9 @@ module lagrangia_final_state
         real(dp) :: t = 0.0_dp                     !! of the latest sample, s
         real(dp), allocatable :: q(:), v(:)        !! that sample; absent: there was none
         real(dp), allocatable :: q_most(:), v_most(:)  !! the largest magnitudes so far
+        real(dp), allocatable :: t_slow(:)
+        !! of each speed the last sample before it first came to half of its largest, s
+        real(dp), allocatable, private :: half(:)  !! speeds that did so, or more
     contains
         procedure :: observe
         procedure :: meet
@@ -29,8 +32,17 @@ contains
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
 
-        if (.not. allocated(self%q)) allocate (self%q_most, source=abs(q))
-        if (.not. allocated(self%q)) allocate (self%v_most, source=abs(v))
+        if (.not. allocated(self%q)) then
+            self%t = t
+            allocate (self%q_most, source=abs(q))
+            allocate (self%v_most, source=abs(v))
+            allocate (self%half, source=abs(v))
+            allocate (self%t_slow(system%ndof), source=t)
+        end if
+        where (abs(v) > 2.0_dp*self%half)
+            self%half = abs(v)
+            self%t_slow = self%t
+        end where
         self%samples = self%samples + 1
         self%t = t
         self%q = q

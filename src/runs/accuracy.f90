@@ -8,9 +8,10 @@ module lagrangia_accuracy
     !! chaos or too long a step, no number of the state is trusted more, beside its largest
     !! magnitude, than the worst of all; and none more than its changes, where these do not shrink
     !! at all. The second run starts a last digit away: where the motion lingers at a saddle, three
-    !! runs from one state would linger alike. Nor is an error less than the distance to the closed
-    !! form, or to the end by another method; with a tolerance, which steps follow unevenly, that
-    !! distance and the latest change.
+    !! runs from one state would linger alike; where they do not resolve how it leaves the saddle,
+    !! rounding has grown all the time, see `lagrangia_saddle`. Nor is an error less than the closed
+    !! form is away, or the end by another method; with a tolerance, which steps follow unevenly,
+    !! that distance and the latest change.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
     use lagrangia_cross_check, only: by_closed_form, by_other_method
@@ -25,6 +26,7 @@ module lagrangia_accuracy
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_part, only: part_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_saddle, only: lingers, unresolved_growth
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
@@ -39,6 +41,7 @@ module lagrangia_accuracy
     real(dp), parameter :: caution = 5.0_dp       !! where the changes don't shrink as they should
     real(dp), parameter :: linger = 10.0_dp       !! where all runs wait at a saddle,
     real(dp), parameter :: amplified = 1e-10_dp   !! if their distances are that large, relative
+    real(dp), parameter :: rests = 1e-2_dp, slows = 0.3_dp  !! of the largest speed
     real(dp), parameter :: share_of_run = 0.125_dp
     !! what the run itself is of all that is computed; then come twice and four times that
 
@@ -115,27 +118,44 @@ contains
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, shrinking, &
                                            scene%tolerance > 0.0_dp) + rounding
-        if (lingers(system, seen) .and. maxval(state%error/max(most, tiny(most))) > amplified) then
-            state%error = linger*state%error
+        if (lingers(system, seen, rests) .and. &
+            maxval(state%error/max(most, tiny(most))) > amplified) state%error = linger*state%error
+        if (lingers(system, seen, slows)) then
+            if (.not. known) other = third
+            state%error = max(state%error, most*grown_since(scene, system, seen, quarter, reshape( &
+                [first(2:), second(2:), third(2:), other(2:)], [size(first) - 1, 4])))
         end if
         call by_closed_form(scene, system, seen, closed_form, other, known)
         if (known) state%error = max(state%error, abs(first - other) + rounding + clock)
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
     end subroutine state_accuracy
 
-    pure function lingers(system, seen) result(yes)
-        !! Does it hardly move at the end, nor begin to? At a saddle all runs wait for the rounding
-        !! that takes them away, each for its own time, and their distances say less than elsewhere.
+    pure function grown_since(scene, system, seen, finest, ends) result(share)
+        !! What an error of the motion, beside its size, has become that grew while the motion was
+        !! near a saddle, if at all: from when it was first away from it, if the energy says how
+        !! large the error was; that of the start until then, too.
+        type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
-        type(final_state_t), intent(in) :: seen
-        logical :: yes
-        real(dp), parameter :: hardly = 1e-2_dp
-        real(dp) :: a(system%ndof)
+        type(final_state_t), intent(in) :: seen, finest  !! of the run, of the finest one
+        real(dp), intent(in) :: ends(:, :)  !! of `unresolved_growth`
+        real(dp) :: share, rate, error, first, of_start, terms
 
-        call system%accelerations(seen%t, seen%q, seen%v, a)
-        yes = all(abs(seen%v) <= hardly*seen%v_most) .and. &
-              all(abs(a)*seen%q_most <= hardly*seen%v_most**2)
-    end function lingers
+        share = 0.0_dp
+        rate = unresolved_growth(system, seen, ends)
+        if (rate <= 0.0_dp) return
+        error = max(2.0_dp*epsilon(error), scene%tolerance)
+        first = scene%t0
+        of_start = 0.0_dp
+        terms = system%natural_size(0, scene%t0, scene%q, scene%v)
+        if (system%conserves_energy() .and. terms > 0.0_dp) then
+            error = max(error, abs(system%energy(seen%t, seen%q, seen%v) - &
+                                   system%energy(finest%t, finest%q, finest%v))/terms)
+            first = minval(seen%t_slow)
+            of_start = 2.0_dp*epsilon(error)*exp(min(rate*(first - scene%t0), 300.0_dp))* &
+                       maxval((abs(scene%q) + abs(scene%v)/rate)/max(seen%q_most, tiny(error)))
+        end if
+        share = (error + of_start)*exp(min(rate*(seen%t - first), 300.0_dp))
+    end function grown_since
 
     pure function rounding_of_clock(system, seen, t_most) result(lost)
         !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion
