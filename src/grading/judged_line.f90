@@ -271,7 +271,8 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! wrong
         integer :: i
 
-        if (count([(scan(side(i:i), "0123456789") == 1, i=1, len(side))]) > 1) return
+        if (count([(scan(side(i:i), "0123456789") == 1, i=1, scan(side//"e", "eE") - 1)]) > 1) &
+            return
         judgement%verdict = is_unreadable
         judgement%example = ""
         judgement%remark = "a number that holds nearly has two digits or more"
@@ -283,7 +284,7 @@ contains
         logical :: yes
         character(*), parameter :: digits = "123456789"
 
-        yes = scan(side, digits) > 0 .and. verify(side, digits//"0 .+-") == 0
+        yes = scan(side, digits) > 0 .and. verify(side, digits//"0 .+-eE*^") == 0
     end function is_value
 
     pure function as_in(text, first, last) result(side)

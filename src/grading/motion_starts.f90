@@ -128,8 +128,16 @@ contains
 
             is_kept = any(samples%place == i) .or. any(samples%frequency + [0, 1] == i)
             if (samples%decay > 0) is_kept = is_kept .or. any(samples%decay + [0, 1] == i)
-            is_kept = is_kept .or. (samples%role(i) == role_parameter .and. .not. any(places == i))
+            is_kept = is_kept .or. (samples%role(i) == role_parameter .and. &
+                                    .not. any(places == i) .and. .not. is_letter(i))
         end function is_kept
+
+        logical function is_letter(i)
+            !! Of the system's own, or the rate of one: `L_z`, `L_z_dot`.
+            integer, intent(in) :: i
+
+            is_letter = any(samples%compiled%symbol == i) .or. any(samples%rate == i)
+        end function is_letter
     end subroutine begin_there
 
     subroutine put_zeros(samples)

@@ -10,6 +10,7 @@ module lagrangia_stated_motion
     use lagrangia_motion_starts, only: begin_there
     use lagrangia_sample_names, only: role_acceleration, samples_t
     use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: word_t
@@ -22,7 +23,8 @@ contains
 
     subroutine take_from_start(homework, system, d, insisted, samples, library, result)
         !! What is wrong of all motions may be right of the one that begins as lines of the sheet
-        !! say. Equations of motion are those of all motions, and so are L and small oscillations.
+        !! say. Equations of motion are those of all motions, and so are L and small oscillations;
+        !! an acceleration that is always the same may be used: `x_dot^2 = 2 x_ddot x`.
         type(homework_t), intent(in) :: homework       !! as read
         class(system_t), intent(in) :: system          !! configured
         type(description_t), intent(in) :: d           !! of it
@@ -43,14 +45,16 @@ contains
         call judge_sheet(homework, d, insisted, there, library, attempt)
         do i = 1, size(result)
             if (homework%statements(i)%small) cycle
-            if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) cycle
+            if (result(i)%verdict == is_right) cycle
+            if (result(i)%verdict == is_definition .and. .not. result(i)%contradicts) cycle
             if (at_rest .and. speaks_of_place(result(i)%residual, samples)) cycle
             if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
                 result(i) = attempt(i)
                 cycle
             end if
             if (attempt(i)%verdict /= is_right) then
-                call take_slip(attempt(i), i, samples, result)
+                if (result(i)%verdict /= is_definition) call take_slip(attempt(i), i, samples, &
+                                                                       result)
                 cycle
             end if
             ! on one motion E is any number, but for a constant
@@ -58,6 +62,8 @@ contains
             if (speaks_of_all(result(i)%residual, samples, at_rest)) cycle
             result(i) = attempt(i)
             result(i)%remark = "of the motion that begins so"
+            ! no equation of motion
+            if (has_accelerations(result(i)%residual, samples)) result(i)%of_motion = .false.
         end do
     end subroutine take_from_start
 
@@ -113,9 +119,9 @@ contains
         end do
     end function speaks_of_place
 
-    pure function speaks_of_all(residual, samples, of_values) result(yes)
-        !! Has it accelerations, L or its derivatives? Of what stays at rest L and the momenta are
-        !! numbers, as E is.
+    function speaks_of_all(residual, samples, of_values) result(yes)
+        !! Has it accelerations that vary, L or its derivatives? Of what stays at rest L and the
+        !! momenta are numbers, as E is.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         logical, intent(in) :: of_values  !! what is said of L and the momenta is their value
@@ -128,8 +134,9 @@ contains
             associate (name => samples%symbols%names(k))
                 if (of_values .and. (name == "L" .or. (index(name, "dL_d") == 1 .and. &
                                                        index(name, "_dot") > 0))) cycle
-                yes = yes .or. samples%role(k) == role_acceleration .or. name == "L" .or. &
-                      index(name, "dL_") > 0
+                yes = yes .or. name == "L" .or. index(name, "dL_") > 0
+                if (samples%role(k) == role_acceleration) yes = yes .or. &
+                    .not. is_constant_of_each_draw(symbol(k), samples)
             end associate
         end do
     end function speaks_of_all

@@ -12,7 +12,7 @@ module lagrangia_usual_meanings
     use lagrangia_sample_names, only: axes, samples_t, states, usual_t
     use lagrangia_sampled_formula, only: summands
     use lagrangia_slip_search, only: holds
-    use lagrangia_slope_at_momentum, only: slope_at_momentum
+    use lagrangia_slope_at_momentum, only: most_cyclic, slope_at_momentum
     use lagrangia_substitution, only: substituted
     use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_written_out, only: energy_formulas
@@ -23,7 +23,7 @@ module lagrangia_usual_meanings
 
     character(*), parameter :: digits = "0123456789"
     character, parameter :: energy_name = "h"  !! of v dL/dv - L, where that is not T + V
-    integer, parameter :: most_names = 400, most_coordinates = 12, most_cyclic = 3
+    integer, parameter :: most_names = 400, most_coordinates = 12
 
 contains
 
