@@ -15,6 +15,7 @@ module lagrangia_stated_motion
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: word_t
     use lagrangia_verdict, only: but_for_constant
+    use lagrangia_zero_constants, only: find_zero_constant
     implicit none (type, external)
     private
     public :: rests_on_right, take_from_start
@@ -32,21 +33,29 @@ contains
         type(samples_t), intent(in) :: samples         !! of all motions, without the sheet's names
         type(library_t), intent(in) :: library(:)      !! right terms
         type(judgement_t), intent(inout) :: result(:)  !! of each statement
-        type(samples_t) :: there
         type(judgement_t), allocatable :: attempt(:)
-        logical :: at_rest, found, one_energy
+        type(expression_t) :: zeros(size(result))
+        logical :: at_rest, found, is_zero(size(result)), one_energy
         integer :: i
 
         if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
                       result%verdict == is_unreadable)) return
-        call begin_there(homework, system, samples, there, found, at_rest)
+        call find_zeros()
+        found = .false.
+        call judge_there(zeros(:0))
+        if (found) is_zero = is_zero .and. attempt%verdict /= is_right  ! it follows
+        if (any(is_zero)) call judge_there(pack(zeros, is_zero))
         if (.not. found) return
-        one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
-        call judge_sheet(homework, d, insisted, there, library, attempt)
         do i = 1, size(result)
             if (homework%statements(i)%small) cycle
             if (result(i)%verdict == is_right) cycle
             if (result(i)%verdict == is_definition .and. .not. result(i)%contradicts) cycle
+            if (is_zero(i)) then
+                result(i)%verdict = is_definition
+                result(i)%remark = "conserved, and zero on the motions that begin so"
+                result(i)%example = ""
+                cycle
+            end if
             if (at_rest .and. speaks_of_place(result(i)%residual, samples)) cycle
             if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
                 result(i) = attempt(i)
@@ -65,6 +74,35 @@ contains
             ! no equation of motion
             if (has_accelerations(result(i)%residual, samples)) result(i)%of_motion = .false.
         end do
+    contains
+        subroutine judge_there(zeros)
+            !! On the motions that begin so; where there are none, as before.
+            type(expression_t), intent(in) :: zeros(:)  !! conserved
+            type(samples_t) :: there
+            logical :: begun, rest
+
+            call begin_there(homework, system, zeros, samples, there, begun, rest)
+            if (size(zeros) > 0 .and. .not. begun) is_zero = .false.
+            if (.not. begun) return
+            found = .true.
+            at_rest = rest
+            one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
+            call judge_sheet(homework, d, insisted, there, library, attempt)
+        end subroutine judge_there
+
+        subroutine find_zeros()
+            !! Which lines say of something conserved that it is 0?
+            integer :: k
+
+            do k = 1, size(result)
+                is_zero(k) = .false.
+                if (homework%statements(k)%small .or. result(k)%verdict == is_right) cycle
+                if (speaks_of_all(result(k)%residual, samples, .false.)) cycle
+                call find_zero_constant(homework%statements(k)%text, result(k)%residual, samples, &
+                                        zeros(k))
+                is_zero(k) = zeros(k)%count > 0
+            end do
+        end subroutine find_zeros
     end subroutine take_from_start
 
     pure function rests_on_right(i, result) result(yes)
