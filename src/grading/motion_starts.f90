@@ -32,7 +32,8 @@ module lagrangia_motion_starts
 
 contains
 
-    subroutine begin_there(homework, system, zeros, samples, there, found, at_rest)
+    subroutine begin_there(homework, system, zeros, samples, there, found, at_rest, &
+                           all_velocities)
         !! States of motions that begin as the lines of a sheet say, at random times; names that
         !! these lines give initial values are those of parameters. What they do not give is at
         !! random, but for what is conserved and zero. None is known with constraints beside L; no
@@ -44,6 +45,7 @@ contains
         type(samples_t), intent(out) :: there      !! states of the motions
         logical, intent(out) :: found              !! there are such lines, and motions
         logical, intent(out) :: at_rest            !! on none of them anything moves
+        logical, intent(out) :: all_velocities     !! are given
         type(expression_t) :: start(2*system%ndof)
         type(description_t) :: d
         class(system_t), allocatable :: drawn
@@ -57,10 +59,12 @@ contains
         n = system%ndof
         found = .false.
         at_rest = .false.
+        all_velocities = .false.
         moving = 0
         if (system%constraints > 0) return
         there = samples
         call read_starts(homework, there, start, found)
+        all_velocities = all(start(n + 1:)%count > 0)
         if (.not. found .and. (size(zeros) == 0 .or. any(start%count > 0))) return
         call system%describe(d)
         names = value_names(d)

@@ -14,11 +14,13 @@ module lagrangia_stated_motion
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: word_t
-    use lagrangia_verdict, only: but_for_constant
+    use lagrangia_verdict, only: but_for_constant, with_any
     use lagrangia_zero_constants, only: find_zero_constant
     implicit none (type, external)
     private
     public :: rests_on_right, take_from_start
+
+    character(*), parameter :: of_start = "of the motion that begins so"
 
 contains
 
@@ -35,11 +37,14 @@ contains
         type(judgement_t), intent(inout) :: result(:)  !! of each statement
         type(judgement_t), allocatable :: attempt(:)
         type(expression_t) :: zeros(size(result))
-        logical :: at_rest, found, is_zero(size(result)), one_energy
+        logical :: all_velocities, at_rest, found, one_energy
+        logical, dimension(size(result)) :: is_any, is_zero
         integer :: i
 
-        if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
-                      result%verdict == is_unreadable)) return
+        is_any = [(index(result(i)%remark, with_any) == 1, i=1, size(result))] .and. &
+                 result%verdict == is_right
+        if (.not. any(is_any .or. result%verdict == is_wrong .or. result%verdict == is_consequence &
+                      .or. result%verdict == is_unreadable)) return
         call find_zeros()
         found = .false.
         call judge_there(zeros(:0))
@@ -48,6 +53,7 @@ contains
         if (.not. found) return
         do i = 1, size(result)
             if (homework%statements(i)%small) cycle
+            if (is_any(i)) call fix_constants(i)
             if (result(i)%verdict == is_right) cycle
             if (result(i)%verdict == is_definition .and. .not. result(i)%contradicts) cycle
             if (is_zero(i)) then
@@ -70,18 +76,29 @@ contains
             if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
             if (speaks_of_all(result(i)%residual, samples, at_rest)) cycle
             result(i) = attempt(i)
-            result(i)%remark = "of the motion that begins so"
+            result(i)%remark = of_start
             ! no equation of motion
             if (has_accelerations(result(i)%residual, samples)) result(i)%of_motion = .false.
         end do
     contains
+        subroutine fix_constants(i)
+            !! Those that the start names are not any ones.
+            integer, intent(in) :: i
+
+            if (.not. all_velocities .or. speaks_of_all(result(i)%residual, samples, at_rest)) return
+            if (index(attempt(i)%remark, with_any) == 1) return
+            if (all(attempt(i)%verdict /= [is_right, is_wrong])) return
+            result(i) = attempt(i)
+            if (result(i)%verdict == is_right) result(i)%remark = of_start
+        end subroutine fix_constants
+
         subroutine judge_there(zeros)
             !! On the motions that begin so; where there are none, as before.
             type(expression_t), intent(in) :: zeros(:)  !! conserved
             type(samples_t) :: there
             logical :: begun, rest
 
-            call begin_there(homework, system, zeros, samples, there, begun, rest)
+            call begin_there(homework, system, zeros, samples, there, begun, rest, all_velocities)
             if (size(zeros) > 0 .and. .not. begun) is_zero = .false.
             if (.not. begun) return
             found = .true.

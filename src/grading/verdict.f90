@@ -12,7 +12,7 @@ module lagrangia_verdict
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: as_new_name, but_for_constant, judgement_t, one_of_many
+    public :: as_new_name, but_for_constant, judgement_t, one_of_many, with_any
     public :: brief, put_example, telling_digits
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
@@ -20,6 +20,7 @@ module lagrangia_verdict
     character(*), parameter :: but_for_constant = "but for a constant"
     !! which L, V and E have that nobody sees
     character(*), parameter :: as_new_name = "taken for a new name: "  !! and why that is said
+    character(*), parameter :: with_any = "with any "  !! constant that fits
     character(*), parameter :: one_of_many = "an initial condition, of one motion of many"
     integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
 
