@@ -85,7 +85,8 @@ contains
             !! Those that the start names are not any ones.
             integer, intent(in) :: i
 
-            if (.not. all_velocities .or. speaks_of_all(result(i)%residual, samples, at_rest)) return
+            if (.not. all_velocities) return
+            if (speaks_of_all(result(i)%residual, samples, at_rest)) return
             if (index(attempt(i)%remark, with_any) == 1) return
             if (all(attempt(i)%verdict /= [is_right, is_wrong])) return
             result(i) = attempt(i)
