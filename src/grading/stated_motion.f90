@@ -181,7 +181,7 @@ contains
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         logical, intent(in) :: of_values  !! what is said of L and the momenta is their value
-        logical :: yes
+        logical :: is_constant, yes
         integer :: k
 
         yes = .false.
@@ -191,8 +191,9 @@ contains
                 if (of_values .and. (name == "L" .or. (index(name, "dL_d") == 1 .and. &
                                                        index(name, "_dot") > 0))) cycle
                 yes = yes .or. name == "L" .or. index(name, "dL_") > 0
-                if (samples%role(k) == role_acceleration) yes = yes .or. &
-                    .not. is_constant_of_each_draw(symbol(k), samples)
+                if (samples%role(k) /= role_acceleration) cycle
+                is_constant = is_constant_of_each_draw(symbol(k), samples)
+                yes = yes .or. .not. is_constant
             end associate
         end do
     end function speaks_of_all
