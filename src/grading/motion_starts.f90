@@ -28,7 +28,7 @@ module lagrangia_motion_starts
     real(dp), parameter :: tolerance = 1e-13_dp  !! of the motions
     real(dp), parameter :: rounding = 1e-10_dp   !! of what they conserve, relative
     real(dp), parameter :: moved = 1e-3_dp       !! they must, by this, absolute or relative
-    integer, parameter :: most_draws = 10        !! of a place where they may begin
+    integer, parameter :: most_draws = 40        !! of a place where they may begin
 
 contains
 
@@ -116,7 +116,7 @@ contains
                 call begin_with_zeros(zeros, free, there%values(k:k, :), found)
                 if (found) exit
                 do c = 1, n
-                    if (start(c)%count == 0) call there%random%uniform(0.3_dp, 3.0_dp, begun(k, c))
+                    if (start(c)%count == 0) call there%random%uniform(-3.0_dp, 3.0_dp, begun(k, c))
                 end do
             end do
             begun(k, :) = there%values(k, 2:1 + 2*n)

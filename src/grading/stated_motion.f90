@@ -44,7 +44,7 @@ contains
         is_any = [(index(result(i)%remark, with_any) == 1, i=1, size(result))] .and. &
                  result%verdict == is_right
         if (.not. any(is_any .or. result%verdict == is_wrong .or. result%verdict == is_consequence &
-                      .or. result%verdict == is_unreadable)) return
+                      .or. result%verdict == is_unreadable .or. result%contradicts)) return
         call find_zeros()
         found = .false.
         call judge_there(zeros(:0))
