@@ -3,21 +3,24 @@ module lagrangia_constants_of_motions
     !! `x = A cos(omega t + phi)`. They are judged on that motion.
     use lagrangia_declared_constants, only: place_of_constant
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, operator(-)
+    use lagrangia_expression, only: expression_t, operator(-), symbol
     use lagrangia_followed_letters, only: follow_letters, is_rounding
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judged_equality, only: judge_forms
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_choice, only: choose_modes
     use lagrangia_motion_values, only: draw_values, rate_of, values_of
     use lagrangia_names, only: name_length
     use lagrangia_sample_names, only: role_known, role_parameter, samples_t
+    use lagrangia_slip_search, only: holds
+    use lagrangia_substitution, only: substituted
     use lagrangia_term_search, only: library_t
     use lagrangia_unknown_names, only: unknown_names
     use lagrangia_verdict, only: is_unreadable, judgement_t
     use lagrangia_written_out, only: energy_formulas, energy_places, in_coordinates
     implicit none (type, external)
     private
-    public :: judge_on_motion, put_on_motion
+    public :: holds_on_motion, judge_on_motion, put_on_motion
 
 contains
 
@@ -86,6 +89,35 @@ contains
         judgement%residual = nothing  ! the constants are no symbols of the sheet
         judgement%of_motion = .false.
     end subroutine judge_on_motion
+
+    function holds_on_motion(residual, samples) result(yes)
+        !! With the motions put in that lines before have written out, in some mode:
+        !! `theta_ddot = -omega^2 theta` behind `theta = A cos(omega t)`.
+        type(expression_t), intent(in) :: residual  !! left less right side
+        type(samples_t), intent(in) :: samples      !! know the motions
+        logical :: yes
+        type(samples_t) :: there
+        type(expression_t) :: e, rates(3*samples%ndof)
+        real(dp), allocatable :: values(:, :)
+        integer :: i, k, places(size(rates))
+        logical :: known
+
+        places = [(1 + i, i=1, size(places))]
+        do i = 1, size(places)
+            k = 1 + modulo(i - 1, samples%ndof)
+            rates(i) = symbol(places(i))
+            if (samples%motion(k)%count > 0) rates(i) = rate_of(samples%motion(k), &
+                                                               (i - 1)/samples%ndof)
+        end do
+        e = substituted(residual, places, rates)
+        call put_on_motion(samples, there)
+        values = there%values
+        if (any([(e%depends_on(samples%frequency + i), i=0, 1)])) then
+            call choose_modes(e, there, values, yes, known)
+        else
+            call holds(e, values, yes, known)
+        end if
+    end function holds_on_motion
 
     subroutine put_on_motion(samples, there)
         !! The states of the motions, with their constants as parameters.

@@ -21,7 +21,7 @@ module lagrangia_free_constants
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: join, to_text
     use lagrangia_unknown_names, only: add_unknown, hidden, unknown_names
-    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
+    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, with_any
     use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
@@ -82,7 +82,7 @@ contains
         if (judged .and. .not. (yes .or. any(starts > 1))) call turn_axes()
         if (yes) then
             judgement%verdict = is_right
-            judgement%remark = "with any "//trim(names(1))
+            judgement%remark = with_any//trim(names(1))
             if (turned > 0) then
                 judgement%remark = judgement%remark//", where "//trim(symbols%names(turned))// &
                                    " is counted from an axis of each motion"

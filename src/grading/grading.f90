@@ -28,7 +28,7 @@ module lagrangia_grading
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     use lagrangia_unknown_names, only: unknown_names
-    use lagrangia_usual_meanings, only: multiplier_readings
+    use lagrangia_usual_meanings, only: force_readings, multiplier_readings
     implicit none (type, external)
     private
     public :: grade_t
@@ -92,6 +92,7 @@ contains
         do i = 1, size(homework%statements)
             if (.not. result%of(i)%contradicts) cycle
             call insist(trim(result%of(i)%defines), i)
+            if (result%of(i)%contradicts) call insist_on_force(trim(result%of(i)%defines), i)
         end do
         call multiplier_readings(d, readings)
         do i = 1, size(readings)
@@ -124,6 +125,19 @@ contains
                 insisted = insisted(:size(insisted) - 1)
             end if
         end subroutine insist
+
+        subroutine insist_on_force(name, line)
+            !! The same, where the name may stand for a force.
+            character(*), intent(in) :: name
+            integer, intent(in) :: line
+            type(word_t), allocatable :: forces(:)
+            integer :: j
+
+            call force_readings(name, d, forces)
+            do j = 1, size(forces)
+                if (result%of(line)%contradicts) call insist(forces(j)%text, line)
+            end do
+        end subroutine insist_on_force
 
         logical function is_wrong_with(name)
             !! Is a line wrong that speaks of `name`?

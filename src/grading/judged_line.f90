@@ -3,11 +3,11 @@ module lagrangia_judged_line
     use lagrangia_amplitude_ratios, only: judge_amplitudes
     use lagrangia_characters, only: characters
     use lagrangia_constancy, only: explain_change, read_constancy
-    use lagrangia_constants_of_motions, only: judge_on_motion
+    use lagrangia_constants_of_motions, only: holds_on_motion, judge_on_motion
     use lagrangia_declared_constants, only: has_place, with_constants
     use lagrangia_equality_signs, only: read_signs
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, whole
+    use lagrangia_expression, only: expression_t, operator(-), whole
     use lagrangia_formula_characters, only: plain_formula, plain_letters
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_free_constants, only: judge_with_constants
@@ -46,7 +46,7 @@ contains
         character(:), allocatable :: name, said, side, side_and, text
         integer :: begun, first, next, last
         logical, allocatable :: nearly(:)
-        logical :: chained, constancy, is_one, of_value, small, squared
+        logical :: chained, constancy, is_one, of_motion, of_value, on_motion, small, squared
 
         chained = .false.
         small = statement%small
@@ -123,15 +123,26 @@ contains
                 if (of_value .and. index(text(first:), ".") == 0) said = trim(said)//"."  ! 24.
                 call judge_forms(left, right, said, chained, small, samples, library, explain, &
                                  judgement)
-                if (of_value .and. judgement%verdict == is_wrong) then  ! cos(theta) ~ 1
+                on_motion = .false.
+                of_motion = is_of_small_motion(left - right, samples)
+                if ((of_value .or. of_motion) .and. judgement%verdict == is_wrong) then
+                    ! cos(theta) ~ 1, or theta_ddot = -omega^2 theta behind theta = A cos(omega t)
                     nearby%verdict = is_right
                     nearby%remark = ""
                     nearby%example = ""
-                    call judge_forms(left, right, said, chained, .true., samples, library, &
-                                     .false., nearby)
-                    if (nearby%verdict == is_right) judgement = nearby
-                    if (nearby%verdict /= is_right) call ask_for_digits(text(first:next - 1), &
-                                                                        judgement)
+                    if (of_motion) on_motion = holds_on_motion(left - right, samples)
+                    if (.not. on_motion) call judge_forms(left, right, said, chained, .true., &
+                                       samples, library, explain .and. of_motion, nearby)
+                    if (of_motion .and. nearby%verdict == is_wrong .and. &
+                        judgement%is_unexplained .and. .not. nearby%is_unexplained) then
+                        judgement = nearby
+                    else if (nearby%verdict == is_right) then
+                        judgement = nearby
+                        if (of_motion .and. judgement%remark == "") judgement%remark = &
+                            "of small oscillations"
+                    else if (of_value) then
+                        call ask_for_digits(text(first:next - 1), judgement)
+                    end if
                 end if
                 if (constancy .and. explain .and. judgement%verdict == is_wrong) then
                     call explain_change(text(begun:first - 2), samples, judgement%explanation, &
@@ -256,6 +267,21 @@ contains
         end subroutine define_here
     end subroutine judge_line
 
+    pure function is_of_small_motion(residual, samples) result(yes)
+        !! Has a line before written out all its motions, of small oscillations?
+        type(expression_t), intent(in) :: residual  !! left less right side
+        type(samples_t), intent(in) :: samples      !! know the motions
+        logical :: yes
+        integer :: i, k
+
+        yes = .false.
+        do k = 1, samples%ndof
+            if (.not. any([(residual%depends_on(1 + k + i*samples%ndof), i=0, 2)])) cycle
+            yes = samples%motion(k)%count > 0 .and. .not. samples%exact_motion(k)
+            if (.not. yes) return
+        end do
+    end function is_of_small_motion
+
     pure function is_usual(side, samples) result(yes)
         !! A name alone that stands for what it mostly means.
         character(*), intent(in) :: side          !! the left one, as typed
@@ -271,7 +297,8 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! wrong
         integer :: i
 
-        if (count([(scan(side(i:i), "0123456789") == 1, i=1, len(side))]) > 1) return
+        if (count([(scan(side(i:i), "0123456789") == 1, i=1, scan(side//"e", "eE") - 1)]) > 1) &
+            return
         judgement%verdict = is_unreadable
         judgement%example = ""
         judgement%remark = "a number that holds nearly has two digits or more"
@@ -283,7 +310,7 @@ contains
         logical :: yes
         character(*), parameter :: digits = "123456789"
 
-        yes = scan(side, digits) > 0 .and. verify(side, digits//"0 .+-") == 0
+        yes = scan(side, digits) > 0 .and. verify(side, digits//"0 .+-eE*^") == 0
     end function is_value
 
     pure function as_in(text, first, last) result(side)

@@ -20,6 +20,7 @@ module lagrangia_motion_starts
     use lagrangia_system, only: system_t
     use lagrangia_unknown_names, only: hidden
     use lagrangia_written_out, only: in_coordinates
+    use lagrangia_zero_constants, only: begin_with_zeros
     implicit none (type, external)
     private
     public :: begin_there
@@ -27,19 +28,24 @@ module lagrangia_motion_starts
     real(dp), parameter :: tolerance = 1e-13_dp  !! of the motions
     real(dp), parameter :: rounding = 1e-10_dp   !! of what they conserve, relative
     real(dp), parameter :: moved = 1e-3_dp       !! they must, by this, absolute or relative
+    integer, parameter :: most_draws = 40        !! of a place where they may begin
 
 contains
 
-    subroutine begin_there(homework, system, samples, there, found, at_rest)
+    subroutine begin_there(homework, system, zeros, samples, there, found, at_rest, &
+                           all_velocities)
         !! States of motions that begin as the lines of a sheet say, at random times; names that
         !! these lines give initial values are those of parameters. What they do not give is at
-        !! random. None is known with constraints beside L; no impacts.
+        !! random, but for what is conserved and zero. None is known with constraints beside L; no
+        !! impacts.
         type(homework_t), intent(in) :: homework   !! as read
         class(system_t), intent(in) :: system      !! configured
+        type(expression_t), intent(in) :: zeros(:) !! conserved, in coordinates and velocities
         type(samples_t), intent(in) :: samples     !! any states, with the sheet's constants
         type(samples_t), intent(out) :: there      !! states of the motions
         logical, intent(out) :: found              !! there are such lines, and motions
         logical, intent(out) :: at_rest            !! on none of them anything moves
+        logical, intent(out) :: all_velocities     !! are given
         type(expression_t) :: start(2*system%ndof)
         type(description_t) :: d
         class(system_t), allocatable :: drawn
@@ -47,17 +53,19 @@ contains
         character(name_length), allocatable :: names(:)
         real(dp) :: begun(size(samples%values, 1), 2*system%ndof)
         real(dp), allocatable :: row(:)
-        integer, allocatable :: places(:)
+        integer, allocatable :: free(:), places(:)
         integer :: i, k, moving, n
 
         n = system%ndof
         found = .false.
         at_rest = .false.
+        all_velocities = .false.
         moving = 0
         if (system%constraints > 0) return
         there = samples
         call read_starts(homework, there, start, found)
-        if (.not. found) return
+        all_velocities = all(start(n + 1:)%count > 0)
+        if (.not. found .and. (size(zeros) == 0 .or. any(start%count > 0))) return
         call system%describe(d)
         names = value_names(d)
         places = [(samples%symbols%find(trim(names(i))), i=1, size(names))]
@@ -66,12 +74,15 @@ contains
             begun(:, i) = there%values(:, 1 + i)
             if (start(i)%count > 0) begun(:, i) = values_of(start(i), there%values)
         end do
+        free = pack([(1 + i, i=n + 1, 2*n)], start(n + 1:)%count == 0)
         allocate (drawn, source=system)
         do k = 1, size(begun, 1)
             if (mod(k, states) == 1) call drawn%configure(samples%values(k, places), error)
             found = .not. allocated(error)
             if (.not. found) return
             row = there%values(k, :)
+            call begin_at_zeros(k)
+            if (.not. found) return
             there%values(k, :) = 0.0_dp
             call follow(k)
             if (.not. found) return
@@ -95,8 +106,25 @@ contains
             end do
         end subroutine vary_constants
 
+        subroutine begin_at_zeros(k)
+            !! Near the state that was drawn, or from other places: E = 0 is not possible anywhere.
+            integer, intent(in) :: k
+            integer :: c, draw
+
+            do draw = 1, most_draws
+                there%values(k, 2:1 + 2*n) = begun(k, :)
+                call begin_with_zeros(zeros, free, there%values(k:k, :), found)
+                if (found) exit
+                do c = 1, n
+                    if (start(c)%count == 0) call there%random%uniform(-3.0_dp, 3.0_dp, begun(k, c))
+                end do
+            end do
+            begun(k, :) = there%values(k, 2:1 + 2*n)
+        end subroutine begin_at_zeros
+
         subroutine follow(k)
-            !! One motion, to a time of up to twice the typical one.
+            !! One motion, to a time of up to twice the typical one; not where only what is
+            !! conserved is known.
             integer, intent(in) :: k
             type(gauss_adaptive_t) :: method
             real(dp), dimension(n) :: q, v
@@ -109,6 +137,12 @@ contains
             call new_gauss16_adaptive(method)
             method%tolerance = tolerance
             method%dense = .false.
+            if (all(start%count == 0)) then
+                moving = moving + 1
+                call put_state(there, drawn, d, k, t, q, v, error)
+                found = .not. allocated(error)
+                return
+            end if
             call method%prepare(drawn, error)
             if (.not. allocated(error)) then
                 call method%start(drawn, 0.0_dp, q, v, t)
@@ -128,8 +162,16 @@ contains
 
             is_kept = any(samples%place == i) .or. any(samples%frequency + [0, 1] == i)
             if (samples%decay > 0) is_kept = is_kept .or. any(samples%decay + [0, 1] == i)
-            is_kept = is_kept .or. (samples%role(i) == role_parameter .and. .not. any(places == i))
+            is_kept = is_kept .or. (samples%role(i) == role_parameter .and. &
+                                    .not. any(places == i) .and. .not. is_letter(i))
         end function is_kept
+
+        logical function is_letter(i)
+            !! Of the system's own, or the rate of one: `L_z`, `L_z_dot`.
+            integer, intent(in) :: i
+
+            is_letter = any(samples%compiled%symbol == i) .or. any(samples%rate == i)
+        end function is_letter
     end subroutine begin_there
 
     subroutine put_zeros(samples)

@@ -10,7 +10,7 @@ module lagrangia_own_names
     use lagrangia_rounded_numbers, only: put_exact_number
     use lagrangia_sample_names, only: role_coordinate, role_parameter, role_velocity, &
                                       samples_t
-    use lagrangia_slope_at_momentum, only: slope_at_momentum
+    use lagrangia_slope_at_momentum, only: most_cyclic, slope_at_momentum
     use lagrangia_statement_forms, only: define_by_period, define_rates, find_frequency, &
                                          has_velocities, means_frequency
     use lagrangia_term_search, only: library_t
@@ -116,7 +116,8 @@ contains
 
         do k = 1, size(samples%role)
             if (.not. meaning%depends_on(k)) cycle
-            if (samples%role(k) == role_velocity .and. samples%ndof <= 3) cycle
+            if (samples%role(k) == role_velocity .and. samples%ndof <= most_cyclic + 1) &
+                cycle
             if (any(samples%symbols%names(k)(:2) == ["p_", "L_"])) cycle
             if (samples%role(k) == role_parameter .and. samples%rate(k) == 0) cycle
             if (samples%role(k) /= role_coordinate) return

@@ -202,7 +202,7 @@ contains
         character(*), intent(in) :: text
         logical, intent(in) :: alone
         real(dp) :: half, number
-        integer :: first, i, last, point, significant, status
+        integer :: behind, exponent, first, i, last, point, significant, status
 
         half = 0.0_dp
         first = 1
@@ -212,7 +212,8 @@ contains
             first = first + last - 1
             last = first + verify(text(first:)//" ", digits//".") - 2
             point = index(text(first:last), ".")
-            read (text(first:last), *, iostat=status) number
+            call find_exponent(text, last, exponent, behind)
+            read (text(first:behind - 1), *, iostat=status) number
             if (status == 0 .and. point > 0 .and. last > first) then
                 significant = 0
                 do i = first, last
@@ -221,13 +222,33 @@ contains
                 end do
                 if (abs(number - value) <= 1e-12_dp*number .and. &
                     significant >= merge(2, 3, alone)) then
-                    half = 0.5_dp*10.0_dp**(-(last - first + 1 - point))
+                    half = 0.5_dp*10.0_dp**(exponent - (last - first + 1 - point))
                     return
                 end if
             end if
-            first = last + 1
+            first = behind
         end do
     end function rounding
+
+    pure subroutine find_exponent(text, last, exponent, behind)
+        !! The power of ten of a number with `e` or `E` behind its digits.
+        character(*), intent(in) :: text
+        integer, intent(in) :: last       !! of these digits
+        integer, intent(out) :: exponent  !! 0 if there is none
+        integer, intent(out) :: behind    !! the first character that is no part of the number
+        integer :: end, start, status
+
+        exponent = 0
+        behind = last + 1
+        if (scan(text(behind:), "eE") /= 1) return
+        start = behind + 1
+        if (scan(text(start:), "+-") == 1) start = start + 1
+        end = start + verify(text(start:)//" ", digits) - 2
+        if (end < start) return
+        read (text(behind + 1:end), *, iostat=status) exponent
+        if (status == 0) behind = end + 1
+        if (status /= 0) exponent = 0
+    end subroutine find_exponent
 
     pure subroutine choose(residual, samples, mode, values)
         !! The values, with omega of this mode; none where the mode does not matter, or is missing.

@@ -34,7 +34,7 @@ contains
         type(error_t), allocatable :: error
         character(name_length), allocatable :: new(:)
         real(dp), allocatable :: values(:, :), nodes(:, :)
-        logical :: moves
+        logical :: moves, of_place
         integer :: i, place
 
         name = ""
@@ -49,12 +49,16 @@ contains
         rest = left - right
         place = symbols%find(trim(new(1)))
         moves = .false.
+        of_place = .false.
         do i = 1, size(samples%role)
             if (.not. rest%depends_on(i)) cycle
+            of_place = of_place .or. any(samples%place == i)  ! r = r_eq + s
+            if (any(samples%place == i)) cycle
             if (samples%role(i) > role_parameter) return
             if (samples%role(i) >= role_velocity .and. samples%role(i) < role_parameter) return
             moves = moves .or. samples%role(i) == role_coordinate
         end do
+        if (of_place .and. .not. moves) return
         slope = derivative(rest, place)
         if (slope%depends_on(place)) return
         if (.not. moves) then

@@ -10,19 +10,24 @@ module lagrangia_stated_motion
     use lagrangia_motion_starts, only: begin_there
     use lagrangia_sample_names, only: role_acceleration, samples_t
     use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: word_t
-    use lagrangia_verdict, only: but_for_constant
+    use lagrangia_verdict, only: but_for_constant, with_any
+    use lagrangia_zero_constants, only: find_zero_constant
     implicit none (type, external)
     private
     public :: rests_on_right, take_from_start
+
+    character(*), parameter :: of_start = "of the motion that begins so"
 
 contains
 
     subroutine take_from_start(homework, system, d, insisted, samples, library, result)
         !! What is wrong of all motions may be right of the one that begins as lines of the sheet
-        !! say. Equations of motion are those of all motions, and so are L and small oscillations.
+        !! say. Equations of motion are those of all motions, and so are L and small oscillations;
+        !! an acceleration that is always the same may be used: `x_dot^2 = 2 x_ddot x`.
         type(homework_t), intent(in) :: homework       !! as read
         class(system_t), intent(in) :: system          !! configured
         type(description_t), intent(in) :: d           !! of it
@@ -30,35 +35,92 @@ contains
         type(samples_t), intent(in) :: samples         !! of all motions, without the sheet's names
         type(library_t), intent(in) :: library(:)      !! right terms
         type(judgement_t), intent(inout) :: result(:)  !! of each statement
-        type(samples_t) :: there
         type(judgement_t), allocatable :: attempt(:)
-        logical :: at_rest, found, one_energy
+        type(expression_t) :: zeros(size(result))
+        logical :: all_velocities, at_rest, found, one_energy
+        logical, dimension(size(result)) :: is_any, is_zero
         integer :: i
 
-        if (.not. any(result%verdict == is_wrong .or. result%verdict == is_consequence .or. &
-                      result%verdict == is_unreadable)) return
-        call begin_there(homework, system, samples, there, found, at_rest)
+        is_any = [(index(result(i)%remark, with_any) == 1, i=1, size(result))] .and. &
+                 result%verdict == is_right
+        if (.not. any(is_any .or. result%verdict == is_wrong .or. result%verdict == is_consequence &
+                      .or. result%verdict == is_unreadable .or. result%contradicts)) return
+        call find_zeros()
+        found = .false.
+        call judge_there(zeros(:0))
+        if (found) is_zero = is_zero .and. attempt%verdict /= is_right  ! it follows
+        if (any(is_zero)) call judge_there(pack(zeros, is_zero))
         if (.not. found) return
-        one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
-        call judge_sheet(homework, d, insisted, there, library, attempt)
         do i = 1, size(result)
             if (homework%statements(i)%small) cycle
-            if (result(i)%verdict == is_right .or. result(i)%verdict == is_definition) cycle
+            if (is_any(i)) call fix_constants(i)
+            if (result(i)%verdict == is_right) cycle
+            if (result(i)%verdict == is_definition .and. .not. result(i)%contradicts) cycle
+            if (is_zero(i)) then
+                result(i)%verdict = is_definition
+                result(i)%remark = "conserved, and zero on the motions that begin so"
+                result(i)%example = ""
+                cycle
+            end if
             if (at_rest .and. speaks_of_place(result(i)%residual, samples)) cycle
             if (attempt(i)%verdict == is_wrong .and. result(i)%verdict == is_unreadable) then
                 result(i) = attempt(i)
                 cycle
             end if
             if (attempt(i)%verdict /= is_right) then
-                call take_slip(attempt(i), i, samples, result)
+                if (result(i)%verdict /= is_definition) call take_slip(attempt(i), i, samples, &
+                                                                       result)
                 cycle
             end if
             ! on one motion E is any number, but for a constant
             if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
             if (speaks_of_all(result(i)%residual, samples, at_rest)) cycle
             result(i) = attempt(i)
-            result(i)%remark = "of the motion that begins so"
+            result(i)%remark = of_start
+            ! no equation of motion
+            if (has_accelerations(result(i)%residual, samples)) result(i)%of_motion = .false.
         end do
+    contains
+        subroutine fix_constants(i)
+            !! Those that the start names are not any ones.
+            integer, intent(in) :: i
+
+            if (.not. all_velocities) return
+            if (speaks_of_all(result(i)%residual, samples, at_rest)) return
+            if (index(attempt(i)%remark, with_any) == 1) return
+            if (all(attempt(i)%verdict /= [is_right, is_wrong])) return
+            result(i) = attempt(i)
+            if (result(i)%verdict == is_right) result(i)%remark = of_start
+        end subroutine fix_constants
+
+        subroutine judge_there(zeros)
+            !! On the motions that begin so; where there are none, as before.
+            type(expression_t), intent(in) :: zeros(:)  !! conserved
+            type(samples_t) :: there
+            logical :: begun, rest
+
+            call begin_there(homework, system, zeros, samples, there, begun, rest, all_velocities)
+            if (size(zeros) > 0 .and. .not. begun) is_zero = .false.
+            if (.not. begun) return
+            found = .true.
+            at_rest = rest
+            one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
+            call judge_sheet(homework, d, insisted, there, library, attempt)
+        end subroutine judge_there
+
+        subroutine find_zeros()
+            !! Which lines say of something conserved that it is 0?
+            integer :: k
+
+            do k = 1, size(result)
+                is_zero(k) = .false.
+                if (homework%statements(k)%small .or. result(k)%verdict == is_right) cycle
+                if (speaks_of_all(result(k)%residual, samples, .false.)) cycle
+                call find_zero_constant(homework%statements(k)%text, result(k)%residual, samples, &
+                                        zeros(k))
+                is_zero(k) = zeros(k)%count > 0
+            end do
+        end subroutine find_zeros
     end subroutine take_from_start
 
     pure function rests_on_right(i, result) result(yes)
@@ -113,13 +175,13 @@ contains
         end do
     end function speaks_of_place
 
-    pure function speaks_of_all(residual, samples, of_values) result(yes)
-        !! Has it accelerations, L or its derivatives? Of what stays at rest L and the momenta are
-        !! numbers, as E is.
+    function speaks_of_all(residual, samples, of_values) result(yes)
+        !! Has it accelerations that vary, L or its derivatives? Of what stays at rest L and the
+        !! momenta are numbers, as E is.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         logical, intent(in) :: of_values  !! what is said of L and the momenta is their value
-        logical :: yes
+        logical :: is_constant, yes
         integer :: k
 
         yes = .false.
@@ -128,8 +190,10 @@ contains
             associate (name => samples%symbols%names(k))
                 if (of_values .and. (name == "L" .or. (index(name, "dL_d") == 1 .and. &
                                                        index(name, "_dot") > 0))) cycle
-                yes = yes .or. samples%role(k) == role_acceleration .or. name == "L" .or. &
-                      index(name, "dL_") > 0
+                yes = yes .or. name == "L" .or. index(name, "dL_") > 0
+                if (samples%role(k) /= role_acceleration) cycle
+                is_constant = is_constant_of_each_draw(symbol(k), samples)
+                yes = yes .or. .not. is_constant
             end associate
         end do
     end function speaks_of_all

@@ -285,7 +285,8 @@ contains
     end function has_velocities
 
     function is_branch(left, right, samples) result(yes)
-        !! `theta_dot = sqrt(...)`: true of the squares, and of the sides where they have one sign.
+        !! `theta_dot = sqrt(...)`, `sqrt(lambda_x^2 + lambda_y^2) = m v theta_dot`: true of the
+        !! squares, and of the sides where they have one sign.
         type(expression_t), intent(in) :: left, right   !! both sides
         type(samples_t), intent(in) :: samples          !! on the motion
         logical :: yes, judged
@@ -294,11 +295,11 @@ contains
 
         yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
         if (yes) yes = any(samples%role(left%nodes(1)%which) == [role_coordinate, role_velocity])
-        if (yes) yes = any([(right%nodes(i)%kind == kind_function .and. &
-                             right%nodes(i)%which == f_sqrt, i=1, right%count)])
-        if (.not. yes) return
+        if (yes) yes = any([(is_root(right, i), i=1, right%count)])
+        if (.not. (yes .or. is_root(left, left%count) .or. is_root(right, right%count))) return
         residual = left**2 - right**2
         call holds(residual, samples%values, yes, judged)
+        yes = yes .and. .not. any([(residual%depends_on(samples%frequency + i), i=0, 1)])
         if (.not. yes) return
         residual = left - right
         yes = .false.
@@ -306,6 +307,14 @@ contains
             call holds(residual, samples%values(i:i, :), yes, judged)
             if (yes) return
         end do
+    contains
+        pure logical function is_root(side, node)
+            type(expression_t), intent(in) :: side
+            integer, intent(in) :: node  !! of it
+
+            is_root = side%nodes(node)%kind == kind_function .and. &
+                      side%nodes(node)%which == f_sqrt
+        end function is_root
     end function is_branch
 
     pure function is_motion(left, right, samples) result(yes)

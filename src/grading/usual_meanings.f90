@@ -12,18 +12,18 @@ module lagrangia_usual_meanings
     use lagrangia_sample_names, only: axes, samples_t, states, usual_t
     use lagrangia_sampled_formula, only: summands
     use lagrangia_slip_search, only: holds
-    use lagrangia_slope_at_momentum, only: slope_at_momentum
+    use lagrangia_slope_at_momentum, only: most_cyclic, slope_at_momentum
     use lagrangia_substitution, only: substituted
     use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_written_out, only: energy_formulas
     implicit none (type, external)
     private
-    public :: collect_meanings, multiplier_readings
+    public :: collect_meanings, force_readings, multiplier_readings
     public :: energy_name
 
     character(*), parameter :: digits = "0123456789"
     character, parameter :: energy_name = "h"  !! of v dL/dv - L, where that is not T + V
-    integer, parameter :: most_names = 400, most_coordinates = 12, most_cyclic = 3
+    integer, parameter :: most_names = 400, most_coordinates = 12
 
 contains
 
@@ -355,18 +355,27 @@ contains
     end function has_one_multiplier
 
     subroutine multiplier_readings(d, readings)
-        !! What `lambda` may be where lambda1 does not fit: `lambda=pull`, of each force.
+        !! What `lambda` may be where lambda1 does not fit.
+        type(description_t), intent(in) :: d                    !! of the system
+        type(word_t), allocatable, intent(out) :: readings(:)   !! names with a label each
+
+        allocate (readings(0))
+        if (has_one_multiplier(d)) call force_readings("lambda", d, readings)
+    end subroutine multiplier_readings
+
+    subroutine force_readings(name, d, readings)
+        !! Each force that a name may stand for: `lambda=pull`, `T_1=tension1`.
+        character(*), intent(in) :: name                        !! of a sheet
         type(description_t), intent(in) :: d                    !! of the system
         type(word_t), allocatable, intent(out) :: readings(:)   !! names with a label each
         integer :: i
 
         allocate (readings(0))
-        if (.not. has_one_multiplier(d)) return
         do i = 1, size(d%quantities)
-            if (d%quantities(i)%unit == "N") call append_word(readings, "lambda="// &
+            if (d%quantities(i)%unit == "N") call append_word(readings, name//"="// &
                                                               trim(d%quantities(i)%name))
         end do
-    end subroutine multiplier_readings
+    end subroutine force_readings
 
     pure subroutine collect_frequencies(samples, all, n)
         !! `omega_0` of one coordinate, where omega is no parameter; beta of a decay.

@@ -12,6 +12,7 @@ module lagrangia_usual_names
     use lagrangia_sample_names, only: role_parameter, samples_t, usual_t
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
+    use lagrangia_solved_accelerations, only: has_accelerations
     use lagrangia_statement_forms, only: define_rates, read_new_name
     use lagrangia_text, only: word_t
     use lagrangia_usual_meanings, only: collect_meanings
@@ -26,7 +27,7 @@ contains
 
     subroutine add_usual_names(d, homework, insisted, samples)
         !! Those that the sheet speaks of; it defines none of those in `insisted`, where
-        !! `lambda=pull` chooses one of several meanings.
+        !! `lambda=pull`, `T_1=tension1` choose one of several meanings.
         type(description_t), intent(in) :: d          !! of the system
         type(homework_t), intent(in) :: homework      !! the sheet
         type(word_t), intent(in) :: insisted(:)       !! names with their usual meaning
@@ -63,8 +64,7 @@ contains
             character(*), intent(in) :: name
             integer :: k
 
-            is_insisted = any([(bare_name(insisted(k)%text) == bare_name(name), &
-                                k=1, size(insisted))])
+            is_insisted = any([(insisted_name(k) == bare_name(name), k=1, size(insisted))])
         end function is_insisted
 
         logical function is_declared(name)
@@ -83,10 +83,21 @@ contains
 
             is_read_otherwise = .false.
             do k = 1, size(insisted)
-                if (index(insisted(k)%text, trim(usual%name)//"=") == 1) is_read_otherwise = &
-                    insisted(k)%text /= trim(usual%name)//"="//usual%label
+                associate (text => insisted(k)%text)
+                    if (index(text, "=") == 0 .or. insisted_name(k) /= bare_name(usual%name)) cycle
+                    is_read_otherwise = text(index(text, "=") + 1:) /= usual%label
+                end associate
             end do
         end function is_read_otherwise
+
+        pure function insisted_name(k) result(name)
+            integer, intent(in) :: k
+            character(name_length) :: name
+
+            associate (text => insisted(k)%text)
+                name = bare_name(text(:index(text//"=", "=") - 1))
+            end associate
+        end function insisted_name
     end subroutine add_usual_names
 
     subroutine mark_used(homework, samples)
@@ -156,11 +167,13 @@ contains
         logical, intent(out) :: known                       !! there is something to compare with
         logical, intent(out) :: agrees                      !! it is that
         character(:), allocatable, intent(out) :: label     !! what that is
+        logical :: of_force
         integer :: i
 
         known = .false.
         agrees = .false.
         label = ""
+        of_force = has_accelerations(meaning, samples)
         do i = 1, size(samples%usual)
             associate (usual => samples%usual(i))
                 if (bare_name(usual%name) /= bare_name(name)) cycle
@@ -177,7 +190,9 @@ contains
                 if (.not. agrees .and. .not. usual%is_force .and. &
                     (moves(usual%meaning, samples) .neqv. moves(meaning, samples))) cycle
                 known = .true.
-                if (agrees .or. label == "") label = trim(usual%label)
+                if (agrees .or. label == "" .or. of_force .and. usual%is_force) label = &
+                    trim(usual%label)
+                of_force = of_force .and. .not. usual%is_force
             end associate
             if (agrees) return
         end do

@@ -7,12 +7,12 @@ module lagrangia_verdict
     use lagrangia_kinds, only: dp
     use lagrangia_number_class, only: is_zero
     use lagrangia_number_text, only: scientific
-    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sample_names, only: role_coordinate, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: as_new_name, but_for_constant, judgement_t, one_of_many
+    public :: as_new_name, but_for_constant, judgement_t, one_of_many, with_any
     public :: brief, put_example, telling_digits
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
@@ -20,6 +20,7 @@ module lagrangia_verdict
     character(*), parameter :: but_for_constant = "but for a constant"
     !! which L, V and E have that nobody sees
     character(*), parameter :: as_new_name = "taken for a new name: "  !! and why that is said
+    character(*), parameter :: with_any = "with any "  !! constant that fits
     character(*), parameter :: one_of_many = "an initial condition, of one motion of many"
     integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
 
@@ -88,20 +89,35 @@ contains
         real(dp), intent(in) :: values(:, :)               !! (states, symbols)
         character(:), allocatable, intent(out) :: text     !! one line
         real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
+        real(dp), allocatable :: left_sizes(:, :), right_sizes(:, :)
         character(:), allocatable :: before
         real(dp), parameter :: rounding = 1e-9_dp
+        logical, allocatable :: judged(:)
         real(dp) :: most
         integer :: digits, i, worst
 
         allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
-        call evaluate_nodes(left, values, of_left)
-        call evaluate_nodes(right, values, of_right)
+        allocate (left_sizes, mold=of_left)
+        allocate (right_sizes, mold=of_right)
+        call evaluate_nodes(left, values, of_left, sizes=left_sizes)
+        call evaluate_nodes(right, values, of_right, sizes=right_sizes)
         associate (a => of_left(:, left%count), b => of_right(:, right%count))
+            ! what is left of terms that cancel is 0
+            associate (of_a => left_sizes(:, left%count), of_b => right_sizes(:, right%count))
+                where (ieee_is_finite(of_a) .and. abs(a) <= 4*epsilon(a)*of_a) a = 0.0_dp
+                where (ieee_is_finite(of_b) .and. abs(b) <= 4*epsilon(b)*of_b) b = 0.0_dp
+            end associate
             allocate (difference(size(a)))
             difference = abs(a - b)/(abs(a) + abs(b))
-            most = maxval(difference, ieee_is_finite(difference))
-            worst = max(1, findloc(difference >= (1.0_dp - rounding)*most .and. &
-                                   ieee_is_finite(difference), .true., 1))
+            judged = ieee_is_finite(difference)
+            do i = 1, size(samples%role)  ! r < 0 is no place that anybody draws
+                if (samples%role(i) /= role_coordinate) cycle
+                if (all(samples%symbols%names(i) /= ["r  ", "rho"])) cycle
+                if (any(judged .and. values(:, i) > 0.0_dp .and. difference > rounding)) &
+                    judged = judged .and. values(:, i) > 0.0_dp
+            end do
+            most = maxval(difference, judged)
+            worst = max(1, findloc(difference >= (1.0_dp - rounding)*most .and. judged, .true., 1))
             digits = telling_digits(a(worst), b(worst))
             text = "left "//brief(a(worst), digits)//", right "//brief(b(worst), digits)
         end associate
