@@ -597,6 +597,15 @@ mkfifo "$work/sweep/flip_map_sweep.dat.part"
 run sweep flip_map --output "$work/sweep" --resume
 check "sweep: a pipe in the place of what was computed is refused" eval '[ $status -eq 5 ] && grep -q "is not a file that a sweep has written" "$work/err"'
 rm "$work/sweep/flip_map_sweep.dat.part"
+printf '%s\n' "&scene system = 'own', method = 'gauss16', tolerance = 1e-9, duration = 1, samples = 5, q = 1 /" \
+    "&lagrangian coordinates = 'x', Q_x = '-0.3 sgn(x_dot) - 0.1 sgn(x)', parameters = 'm', L = 'm/2 x_dot^2 - x^2/2' /" \
+    "&own m = 1 /" >"$work/stick.nml"
+run run "$work/stick.nml" --output "$work/stick"
+check "run: of dry friction it says that it does not hold a body" \
+    grep -qF "'sgn(x_dot)' jumps where the motion turns" "$work/err"
+sed -i 's/-0.3 sgn(x_dot) //' "$work/stick.nml"
+run run "$work/stick.nml" --output "$work/stick"
+check "run: and nothing of a force that jumps elsewhere" eval '! grep -q "jumps" "$work/err"'
 cat >"$work/double_pendulum_chaos.nml" <<'END'
 &scene
   title = 'How chaotic is a double pendulum? One exponent, from twenty starts of one energy'

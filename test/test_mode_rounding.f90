@@ -5,6 +5,7 @@ module test_mode_rounding
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_rounding, only: find_rounding, mode_rounding_t
+    use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_small_oscillations, only: find_modes, modes_t
@@ -33,6 +34,7 @@ contains
                                       oscillators_by_a_stiff_spring, setUp=restart_random))
         call suite%addTest(TestMethod("usual_modes_keep_their_digits", &
                                       usual_modes_keep_their_digits, setUp=restart_random))
+        call suite%addTest(TestMethod("near_critical_damping", near_critical_damping))
         call suite%addTest(TestMethod("near_modes_have_unsure_shapes", &
                                       near_modes_have_unsure_shapes))
     end function mode_rounding_suite
@@ -178,6 +180,41 @@ contains
                             message="its shapes")
         end do
     end subroutine usual_modes_keep_their_digits
+
+    subroutine near_critical_damping()
+        !! \(\lambda = (-c \pm \sqrt{c^2 - 4mk})/(2m)\), nearly equal: against quadruple
+        !! precision from the same doubles, on both sides; what is said to be unsure is no more
+        !! than a half and an ulp of c and k make it.
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: distance(:), rounding(:)
+        real(dp) :: one(1, 1), c(1, 1), k(1, 1)
+        real(quad) :: discriminant, root
+        integer :: i, power, side
+
+        one = 1.3_dp
+        k = 0.7_dp
+        do power = 1, 12
+            do side = -1, 1, 2
+                c = 2.0_dp*sqrt(one*k)*(1.0_dp + side*10.0_dp**(-power))
+                call quadratic_eigenvalues(one, c, k, lambda, error, rounding, distance)
+                call assertFalse(allocated(error), message="near critical")
+                discriminant = real(c(1, 1), quad)**2 - 4.0_quad*one(1, 1)*k(1, 1)
+                root = sqrt(abs(discriminant))/(2.0_quad*one(1, 1))
+                do i = 1, 2
+                    if (side < 0) then
+                        call assertTrue(abs(abs(aimag(lambda(i))) - root) <= distance(i), &
+                                        message="frequency")
+                    else
+                        call assertTrue(min(abs(real(lambda(i)) + c(1, 1)/2.6_quad - root), &
+                                            abs(real(lambda(i)) + c(1, 1)/2.6_quad + root)) <= &
+                                        distance(i) + epsilon(1.0_dp), message="rate")
+                    end if
+                    call assertLessThan(distance(i), 32.0_dp*epsilon(1.0_dp)/real(root, dp))
+                end do
+            end do
+        end do
+    end subroutine near_critical_damping
 
     subroutine near_modes_have_unsure_shapes()
         !! Of an isotropic trap two modes are one to rounding, and no digit of their shapes is

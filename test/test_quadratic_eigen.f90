@@ -29,7 +29,6 @@ contains
         call suite%addTest(TestMethod("weak_drag_in_a_strong_field", weak_drag_in_a_strong_field))
         call suite%addTest(TestMethod("growth_that_is_turned", growth_that_is_turned))
         call suite%addTest(TestMethod("zeros_are_zeros", zeros_are_zeros))
-        call suite%addTest(TestMethod("near_critical_damping", near_critical_damping))
         call suite%addTest(TestMethod("no_inertia", no_inertia))
         call suite%addTest(TestMethod("a_coordinate_of_its_own", a_coordinate_of_its_own))
         call suite%addTest(TestMethod("three_masses_on_stiff_dashpots", &
@@ -409,41 +408,6 @@ contains
             end do
         end function diagonal
     end subroutine a_coordinate_of_its_own
-
-    subroutine near_critical_damping()
-        !! \(\lambda = (-c \pm \sqrt{c^2 - 4mk})/(2m)\), nearly equal: against quadruple
-        !! precision from the same doubles, on both sides; what is said to be unsure is no more
-        !! than a half and an ulp of c and k make it.
-        complex(dp), allocatable :: lambda(:)
-        type(error_t), allocatable :: error
-        real(dp), allocatable :: distance(:), rounding(:)
-        real(dp) :: one(1, 1), c(1, 1), k(1, 1)
-        real(quad) :: discriminant, root
-        integer :: i, power, side
-
-        one = 1.3_dp
-        k = 0.7_dp
-        do power = 1, 12
-            do side = -1, 1, 2
-                c = 2.0_dp*sqrt(one*k)*(1.0_dp + side*10.0_dp**(-power))
-                call quadratic_eigenvalues(one, c, k, lambda, error, rounding, distance)
-                call assertFalse(allocated(error), message="near critical")
-                discriminant = real(c(1, 1), quad)**2 - 4.0_quad*one(1, 1)*k(1, 1)
-                root = sqrt(abs(discriminant))/(2.0_quad*one(1, 1))
-                do i = 1, 2
-                    if (side < 0) then
-                        call assertTrue(abs(abs(aimag(lambda(i))) - root) <= distance(i), &
-                                        message="frequency")
-                    else
-                        call assertTrue(min(abs(real(lambda(i)) + c(1, 1)/2.6_quad - root), &
-                                            abs(real(lambda(i)) + c(1, 1)/2.6_quad + root)) <= &
-                                        distance(i) + epsilon(1.0_dp), message="rate")
-                    end if
-                    call assertLessThan(distance(i), 32.0_dp*epsilon(1.0_dp)/real(root, dp))
-                end do
-            end do
-        end do
-    end subroutine near_critical_damping
 
     subroutine no_inertia()
         !! A singular M is an error of LAPACK's, with nothing solved.

@@ -11,6 +11,7 @@ module lagrangia_run_command
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
+    use lagrangia_friction_warning, only: friction_warning
     use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_json, only: json_line
     use lagrangia_kinds, only: i8
@@ -195,7 +196,7 @@ contains
         character(*), intent(in) :: folder, format
         logical, intent(in) :: quiet
         character(:), allocatable, intent(out) :: text  !! `; ` between two; "": nothing
-        type(word_t) :: parts(4)
+        type(word_t) :: parts(5)
         integer :: i
 
         parts(1)%text = ""
@@ -203,6 +204,7 @@ contains
         parts(2)%text = step_warning(one%plan%scene, one%plan%system)
         parts(3)%text = size_warning(one%plan%scene, folder, format)
         parts(4)%text = degrees_warning(one%plan%scene, one%plan%system)
+        parts(5)%text = friction_warning(one%plan%system)
         text = ""
         do i = 1, size(parts)
             if (parts(i)%text == "") cycle

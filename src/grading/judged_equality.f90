@@ -19,8 +19,8 @@ module lagrangia_judged_equality
     use lagrangia_squared_statements, only: compare_squares, explain_squares
     use lagrangia_stated_equilibria, only: another_equilibrium, is_equilibrium
     use lagrangia_statement_forms, only: has_velocities, is_about_other, is_branch, is_motion, &
-                                         read_as_tension, speaks_of_place, tensions, &
-                                         value_remark
+                                         speaks_of_place, value_remark
+    use lagrangia_tensions, only: read_as_tension, tensions
     use lagrangia_term_search, only: context, library_t, part_text
     use lagrangia_text, only: quoted, to_text
     use lagrangia_unknown_names, only: hidden

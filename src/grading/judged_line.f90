@@ -297,8 +297,9 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! wrong
         integer :: i
 
-        if (count([(scan(side(i:i), "0123456789") == 1, i=1, scan(side//"e", "eE") - 1)]) > 1) &
+        if (count([(scan(side(i:i), "0123456789") == 1, i=1, scan(side//"e", "eE") - 1)]) > 1) then
             return
+        end if
         judgement%verdict = is_unreadable
         judgement%example = ""
         judgement%remark = "a number that holds nearly has two digits or more"

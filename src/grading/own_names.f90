@@ -116,8 +116,9 @@ contains
 
         do k = 1, size(samples%role)
             if (.not. meaning%depends_on(k)) cycle
-            if (samples%role(k) == role_velocity .and. samples%ndof <= most_cyclic + 1) &
+            if (samples%role(k) == role_velocity .and. samples%ndof <= most_cyclic + 1) then
                 cycle
+            end if
             if (any(samples%symbols%names(k)(:2) == ["p_", "L_"])) cycle
             if (samples%role(k) == role_parameter .and. samples%rate(k) == 0) cycle
             if (samples%role(k) /= role_coordinate) return

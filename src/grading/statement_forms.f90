@@ -13,11 +13,11 @@ module lagrangia_statement_forms
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: check_name
+    use lagrangia_tensions, only: tensions
     implicit none (type, external)
     private
     public :: define_by_period, define_rates, period, speaks_of_place, without_number
-    public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
-              tensions
+    public :: drop_root_of_name, find_frequency, read_as_period, read_new_name
     public :: has_velocities, is_about_other, is_branch, is_motion, is_slope, means_frequency, &
               value_remark
 
@@ -177,7 +177,7 @@ contains
         if (yes .and. at == 1) yes = name(2:2) == "'"
     end function is_slope
 
-    pure subroutine read_as_period(left, right, samples, is_period)
+    subroutine read_as_period(left, right, samples, is_period)
         !! `T = 2 pi sqrt(l/g)`, `T^2 = 4 pi^2 l/g`, `omega = 2 pi/T`: a kinetic energy moves, and
         !! never alone. T is then \(2\pi/\omega\).
         type(expression_t), intent(inout) :: left, right  !! both sides; T is written out there
@@ -185,9 +185,12 @@ contains
         logical, intent(inout) :: is_period  !! becomes true: the left side, T, is as it must be
         type(expression_t) :: meaning(1)  ! gfortran 12 does not free what a constructor makes
         integer :: letter
+        logical :: of_kinetic, judged
 
         letter = period_letter(left - right, samples)
         if (letter == 0) return
+        call holds(left - right, samples%values, of_kinetic, judged)
+        if (of_kinetic) return  ! of a motion with one velocity, `T = m/2 v_0^2`
         if (right%count == 1 .and. is_zero(right%nodes(1)%number%value) .and. &
             right%nodes(1)%kind == kind_number) return  ! `T = 0` is of what rests
         is_period = is_period .or. .not. right%depends_on(letter)
@@ -240,38 +243,6 @@ contains
 
         formula = whole(2)*constant(acos(-1.0_dp))/symbol(samples%frequency)
     end function period
-
-    pure function tensions(samples) result(number)
-        !! How many quantities are forces of strings and rods.
-        type(samples_t), intent(in) :: samples  !! know the names
-        integer :: number
-
-        number = count(index(samples%symbols%names, "tension") == 1)
-    end function tensions
-
-    pure subroutine read_as_tension(left, right, samples, which, one, other)
-        !! `m1 g - T = m1 x_ddot`: where nothing has a velocity, T is no kinetic energy.
-        type(expression_t), intent(in) :: left, right    !! both sides
-        type(samples_t), intent(in) :: samples           !! know the names
-        integer, intent(in) :: which                     !! of `tensions`
-        type(expression_t), intent(out) :: one, other    !! with that force; empty: T is no force
-        type(expression_t) :: force(1)
-        integer :: k, letter, number
-
-        letter = samples%symbols%find("T")
-        if (letter == 0) return
-        if (samples%role(letter) /= role_known) return
-        if (.not. (left%depends_on(letter) .or. right%depends_on(letter))) return
-        number = 0
-        do k = 1, size(samples%role)
-            if (index(samples%symbols%names(k), "tension") == 1) number = number + 1
-            if (number == which .and. force(1)%count == 0) force(1) = symbol(k)
-            if (k == letter .or. .not. (left%depends_on(k) .or. right%depends_on(k))) cycle
-            if (any(samples%symbols%names(k) == ["L", "V", "E"])) return
-        end do
-        one = substituted(left, [letter], force)
-        other = substituted(right, [letter], force)
-    end subroutine read_as_tension
 
     pure function has_velocities(expression, samples) result(yes)
         !! Is there a velocity in it?

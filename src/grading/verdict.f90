@@ -113,8 +113,9 @@ contains
             do i = 1, size(samples%role)  ! r < 0 is no place that anybody draws
                 if (samples%role(i) /= role_coordinate) cycle
                 if (all(samples%symbols%names(i) /= ["r  ", "rho"])) cycle
-                if (any(judged .and. values(:, i) > 0.0_dp .and. difference > rounding)) &
+                if (any(judged .and. values(:, i) > 0.0_dp .and. difference > rounding)) then
                     judged = judged .and. values(:, i) > 0.0_dp
+                end if
             end do
             most = maxval(difference, judged)
             worst = max(1, findloc(difference >= (1.0_dp - rounding)*most .and. judged, .true., 1))
