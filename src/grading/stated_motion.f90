@@ -37,9 +37,11 @@ contains
         type(judgement_t), intent(inout) :: result(:)  !! of each statement
         type(judgement_t), allocatable :: attempt(:)
         type(expression_t) :: zeros(size(result))
-        logical :: all_velocities, at_rest, found, one_energy
+        logical :: all_velocities, at_rest, found
+        logical :: is_number(2)  ! of E and V, on each motion
+        integer :: energies(2)
         logical, dimension(size(result)) :: is_any, is_zero
-        integer :: i
+        integer :: i, k
 
         is_any = [(index(result(i)%remark, with_any) == 1, i=1, size(result))] .and. &
                  result%verdict == is_right
@@ -72,8 +74,9 @@ contains
                                                                        result)
                 cycle
             end if
-            ! on one motion E is any number, but for a constant
-            if (attempt(i)%remark == but_for_constant .and. one_energy) cycle
+            ! what is a number on each motion is any number, but for a constant
+            if (attempt(i)%remark == but_for_constant .and. any( &
+                is_number .and. [(attempt(i)%residual%depends_on(energies(k)), k=1, 2)])) cycle
             if (speaks_of_all(result(i)%residual, samples, at_rest)) cycle
             result(i) = attempt(i)
             result(i)%remark = of_start
@@ -98,13 +101,19 @@ contains
             type(expression_t), intent(in) :: zeros(:)  !! conserved
             type(samples_t) :: there
             logical :: begun, rest
+            integer :: k
 
             call begin_there(homework, system, zeros, samples, there, begun, rest, all_velocities)
             if (size(zeros) > 0 .and. .not. begun) is_zero = .false.
             if (.not. begun) return
             found = .true.
             at_rest = rest
-            one_energy = is_constant_of_each_draw(symbol(samples%symbols%find("E")), there)
+            energies = [samples%symbols%find("E"), samples%symbols%find("V")]
+            is_number = .false.
+            do k = 1, 2
+                if (energies(k) == 0) cycle
+                is_number(k) = is_constant_of_each_draw(symbol(energies(k)), there)
+            end do
             call judge_sheet(homework, d, insisted, there, library, attempt)
         end subroutine judge_there
 
