@@ -286,6 +286,8 @@ contains
         call no_modes("pendulum", [1.0_dp], "the nearest is 0.0")
         call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is 1.1675569038050...")
         call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
+        call no_modes("pendulum", [ieee_value(1.0_dp, ieee_quiet_nan)], "a place for the modes "// &
+                      "of pendulum is no finite number: nan")
         ! a zero mode: the stiffness is singular, and where the cart stands is as it was
         call no_modes("cart_pendulum", [0.3_dp, 0.1_dp], "the nearest is 0.3,0.0")
         call no_modes("pendulum", [0.0_dp, 1.0_dp], "an equilibrium of pendulum has 1 value, "// &

@@ -214,7 +214,11 @@ contains
         if (motion_contains_time(system)) call fail(error, "the equation of motion of this "// &
             trim(d%name)//" contains the time: there are no normal modes about a place at rest")
         if (allocated(error)) return
-        if (any(.not. ieee_is_finite(start))) then
+        if (any(.not. ieee_is_finite(start)) .and. wanted) then
+            call fail(error, "a place for the modes of "//trim(d%name)//" is no finite number: "// &
+                      list_of(start), key="at")
+            return
+        else if (any(.not. ieee_is_finite(start))) then
             call fail(error, "with these parameters the equilibrium of "//trim(d%name)// &
                       " is no number: a root of a negative number, a sine or cosine beyond 1, "// &
                       "or a division by zero")
