@@ -2,7 +2,7 @@ module lagrangia_derive
     !! `lagrangia derive SYSTEM`: the lecture's recipe from the positions of the masses to the
     !! equations of motion and the frequencies, each line compared with what the program computes.
     use lagrangia_aligned_latex, only: aligned_latex
-    use lagrangia_certain_digits, only: certain_scientific
+    use lagrangia_certain_digits, only: certain_scientific, share_of
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
@@ -182,7 +182,7 @@ contains
         real(dp), intent(in) :: value, noise
         character(:), allocatable :: text
 
-        text = certain_scientific(value, noise/max(abs(value), tiny(value)), 6)
+        text = certain_scientific(value, share_of(value, noise), 6)
     end function left_of
 
     function both(c, digits) result(text)

@@ -2,7 +2,7 @@ module lagrangia_modes_page
     !! Small oscillations as `lagrangia modes` prints them: for the eye, with the digits that
     !! rounding has left, or as JSON.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_certain_digits, only: certain, number
+    use lagrangia_certain_digits, only: certain, number, share_of
     use lagrangia_console, only: put, put_line
     use lagrangia_damped_rates, only: damped_rates
     use lagrangia_description, only: description_t
@@ -43,11 +43,9 @@ contains
         n = size(modes%omega2)
         call put_line(trim(d%name)//": small oscillations about "//place_text(d, modes%at))
         if (n <= widest) then
-            call put_matrix("M", modes%mass, 0.0_dp*modes%mass)
+            call put_matrix("M", modes%mass)
             call put_matrix("K", modes%stiffness, rounding%springs)
-            if (any(is_nonzero(modes%gyroscopic))) then
-                call put_matrix("G", modes%gyroscopic, 0.0_dp*modes%gyroscopic)
-            end if
+            if (any(is_nonzero(modes%gyroscopic))) call put_matrix("G", modes%gyroscopic)
         end if
         if (allocated(modes%basis)) call put_constraints(modes)
         if (modes%difference >= 0.0_dp) then
@@ -98,7 +96,8 @@ contains
                               " have one omega: every sum of their shapes is a shape, too")
             end if
         end do
-        if (system%nonconservative .and. n <= widest) call put_damped(system, modes)
+        if (system%nonconservative .and. n <= widest) call put_damped(system, modes, &
+                                                                           rounding%springs)
         if (n <= widest) then
             call put_line("")
             call put_shapes(modes, rounding)
@@ -128,10 +127,11 @@ contains
         call put_line(text)
     end subroutine put_constraints
 
-    subroutine put_damped(system, modes)
+    subroutine put_damped(system, modes, springs)
         !! What the drag makes of the modes: decay rates and frequencies.
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
+        real(dp), intent(in) :: springs(:, :)  !! how far parameters may have moved K
         complex(dp), allocatable :: lambda(:)
         real(dp), allocatable :: rounding(:), distance(:)
         type(error_t), allocatable :: error
@@ -139,7 +139,7 @@ contains
 
         call put_line("these modes are without the generalised forces beside L; with them, as "// &
                       "exp(lambda t):")
-        call damped_rates(system, modes, lambda, error, rounding, distance)
+        call damped_rates(system, modes, lambda, error, rounding, distance, springs)
         if (allocated(error)) then
             call put_line("  "//error%message)
             return
@@ -148,7 +148,8 @@ contains
             associate (gamma => -real(lambda(j)), omega => aimag(lambda(j)))
                 if (omega > 0.0_dp) then
                     call put_line("  decay rate "//decay(gamma, rounding(j), omega)// &
-                                  " 1/s, omega "//certain(omega, distance(j)/omega)//" rad/s")
+                                  " 1/s, omega "//certain(omega, share_of(omega, distance(j)))// &
+                                  " rad/s")
                 else
                     call put_line("  decay rate "//decay(gamma, distance(j), abs(gamma))// &
                                   " 1/s, no oscillation")
@@ -164,7 +165,7 @@ contains
         character(:), allocatable :: text
 
         if (delta < 0.5_dp*abs(gamma) .or. (is_zero(gamma) .and. delta <= 1e-10_dp*omega)) then
-            text = certain(gamma, delta/max(abs(gamma), tiny(gamma)))
+            text = certain(gamma, share_of(gamma, delta))
         else
             text = "below "//scientific(delta, 1)
         end if
@@ -199,7 +200,7 @@ contains
 
             row = mark
             do i = 1, size(u)
-                row(19*i - 16:) = certain(u(i), delta(i)/max(abs(u(i)), tiny(u)))
+                row(19*i - 16:) = certain(u(i), share_of(u(i), delta(i)))
                 ! beside the others of the same weight it is rounding
                 if (abs(u(i))*sqrt(modes%mass(i, i)) < least .or. &
                     abs(u(i)) <= 2.0_dp*delta(i)) row(19*i - 16:) = "0"
@@ -223,7 +224,8 @@ contains
     subroutine put_matrix(name, a, delta)
         !! Row by row.
         character(*), intent(in) :: name
-        real(dp), intent(in) :: a(:, :), delta(:, :)  !! and how far it may be off
+        real(dp), intent(in) :: a(:, :)
+        real(dp), intent(in), optional :: delta(:, :)  !! how far it may be off
         character(18) :: entry
         character(:), allocatable :: row
         integer :: i, j
@@ -232,7 +234,8 @@ contains
             row = "    "
             if (i == 1) row = name//" = "
             do j = 1, size(a, 2)
-                entry = certain(a(i, j), delta(i, j)/max(abs(a(i, j)), tiny(a)))
+                entry = number(a(i, j))
+                if (present(delta)) entry = certain(a(i, j), share_of(a(i, j), delta(i, j)))
                 row = row//entry//" "
             end do
             call put_line(trim(row))

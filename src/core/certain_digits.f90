@@ -5,7 +5,7 @@ module lagrangia_certain_digits
     use lagrangia_number_text, only: fixed, scientific
     implicit none (type, external)
     private
-    public :: certain, certain_scientific, number
+    public :: certain, certain_scientific, number, share_of
 
 contains
 
@@ -40,6 +40,15 @@ contains
             text = scientific(value, min(digits, digits_of(share)))
         end if
     end function certain_scientific
+
+    pure function share_of(value, delta) result(share)
+        !! Of a number that may be off by \(\delta\); of 0 more than all.
+        real(dp), intent(in) :: value  !! any finite one
+        real(dp), intent(in) :: delta  !! not negative
+        real(dp) :: share
+
+        share = delta/max(abs(value), tiny(value))
+    end function share_of
 
     pure function digits_of(share) result(digits)
         !! That are left, 1 to 17.

@@ -6,7 +6,6 @@ module lagrangia_damped_rates
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_mode_rounding, only: find_rounding, mode_rounding_t
     use lagrangia_number_class, only: is_zero
     use lagrangia_quadratic_eigen, only: quadratic_eigenvalues
     use lagrangia_small_oscillations, only: modes_t
@@ -33,7 +32,7 @@ contains
         end do
     end subroutine damping_matrix
 
-    subroutine damped_rates(system, modes, lambda, error, rounding, distance)
+    subroutine damped_rates(system, modes, lambda, error, rounding, distance, unsure)
         !! The exponents of \(e^{\lambda t}\), those with \(\mathrm{Im}\,\lambda\ge0\), the fastest
         !! oscillation last, of two alike but for rounding the one that grows first:
         !! \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\) the frequency.
@@ -48,13 +47,15 @@ contains
         !! how far it may have moved the decay rates of oscillations, 1/s
         real(dp), allocatable, intent(out), optional :: distance(:)
         !! how far it may have moved frequencies, and decay rates without oscillation, 1/s
+        real(dp), intent(in), optional :: unsure(:, :)
+        !! by how much more than its rounding K may be off, (n, n); else nothing
         real(dp), dimension(size(modes%at), size(modes%at)) :: springs
         real(dp), allocatable, dimension(:, :) :: mass, stiffness, turning  !! that are allowed
         complex(dp), allocatable :: all_lambda(:)
-        real(dp), allocatable :: all_rounding(:), all_distance(:), rank(:)
-        type(mode_rounding_t) :: of_modes
+        real(dp), allocatable :: all_rounding(:), rank(:)
         logical, allocatable :: left(:)
         real(dp), parameter :: alike = 1e-9_dp, split = 8.0_dp*sqrt(epsilon(1.0_dp))
+        integer, allocatable :: order(:)
         integer :: j
 
         allocate (turning(size(modes%at), size(modes%at)))
@@ -63,35 +64,31 @@ contains
         mass = modes%allowed(modes%mass)
         stiffness = modes%allowed(springs + modes%stiffness)
         turning = modes%allowed(turning + modes%gyroscopic)
-        if (present(distance)) then
-            call find_rounding(system, modes, of_modes)
-            call quadratic_eigenvalues(mass, turning, stiffness, all_lambda, error, all_rounding, &
-                                       all_distance, modes%allowed(of_modes%springs))
-        else
-            call quadratic_eigenvalues(mass, turning, stiffness, all_lambda, error, all_rounding)
-        end if
+        springs = 0.0_dp
+        if (present(unsure)) springs = unsure
+        call quadratic_eigenvalues(mass, turning, stiffness, all_lambda, error, all_rounding, &
+                                   distance, modes%allowed(springs))
         if (allocated(error)) return
         if (size(all_lambda) == 2) then
             if (abs(all_lambda(2) - all_lambda(1)) <= split*abs(all_lambda(1))) then
                 all_lambda = -turning(1, 1)/(2.0_dp*mass(1, 1))
-                if (present(distance)) all_distance = parting(mass(1, 1), turning(1, 1), &
+                if (present(distance)) distance = parting(mass(1, 1), turning(1, 1), &
                                                               stiffness(1, 1))
             end if
         end if
         allocate (left, source=aimag(all_lambda) >= 0.0_dp)
-        allocate (lambda(0))
-        if (present(rounding)) allocate (rounding(0))
-        if (present(distance)) allocate (distance(0))
+        allocate (order(0))
         do while (any(left))
             rank = aimag(all_lambda) + 1e-3_dp*abs(real(all_lambda))
             j = maxloc(real(all_lambda), 1, left .and. &
                        rank <= (1.0_dp + alike)*minval(rank, left))
             if (j == 0) exit  ! what is left is no number
-            lambda = [lambda, all_lambda(j)]
-            if (present(rounding)) rounding = [rounding, all_rounding(j)]
-            if (present(distance)) distance = [distance, all_distance(j)]
+            order = [order, j]
             left(j) = .false.
         end do
+        lambda = all_lambda(order)
+        if (present(rounding)) rounding = all_rounding(order)
+        if (present(distance)) distance = distance(order)
     contains
         pure function parting(m, c, k) result(distance)
             ! How far two roots that are taken for one may be from their mean.
