@@ -5,10 +5,15 @@ set -u
 source "$(dirname "$0")/attack_tools.sh"
 
 # A script that was started in the background ignores SIGINT, and so would its children
-heard=(env --default-signal=HUP,INT,QUIT,TERM,XCPU)
+heard=(env --default-signal=HUP,INT,QUIT,TERM,XCPU,USR1,USR2,ALRM,VTALRM,PROF)
 "${heard[@]}" true 2>/dev/null || heard=()
 
 endings="HUP:129 INT:130 QUIT:131 TERM:143 XCPU:152"
+rarer="" # what else ends a program that does not catch it, by this system's numbers
+for name in USR1 USR2 ALRM VTALRM PROF IO POLL PWR STKFLT RTMIN RTMAX; do
+    case $(uname) in Linux) ;; *) case $name in IO | POLL | PWR | STKFLT | RT*) continue ;; esac ;; esac
+    number=$(kill -l $name 2>/dev/null) && rarer="$rarer $name:$((128 + number))"
+done
 ended() { # ended SIGNAL: send it to the child; its status. One that hangs is killed
     kill -"$1" $child
     for _ in $(seq 100); do
@@ -30,7 +35,7 @@ begin() { # begin FOLDER: a long run in the background; returns when its tempora
     done
 }
 set -m # else a shell lets its background jobs ignore SIGINT
-for pair in $endings KILL:137; do
+for pair in $endings $rarer KILL:137; do
     mkdir "$work/${pair%:*}"
     plant "$work/${pair%:*}" pendulum.dat pendulum.gp
     begin "$work/${pair%:*}"
@@ -144,7 +149,7 @@ begin_command() { # begin_command WORDS...: in the background; returns when it c
         sleep 0.01
     done
 }
-for signal in $endings; do
+for signal in $endings USR1:$((128 + $(kill -l USR1))) ALRM:142; do
     for writer in "modes hanging_chain --set hanging_chain%n=1000 --output" "principle action --output" \
         "bench --quick --output" "run double_pendulum --set scene%duration=1e5 --error-estimate --output" stress check; do
         folder=$work/${signal%:*}${writer%% *}
@@ -261,7 +266,7 @@ run "${plot[@]}"
 check "--plot: a whole picture has its name" eval '[ $status -eq 0 ] && grep -q "^svg" "$work/drawn/pendulum.svg" && leftovers "$work/drawn"'
 plant "$work/drawn" pendulum.svg
 fake "echo \$\$ >'$work/gnuplot'" 'echo "<svg>" >"$5"' 'exec sleep 30'
-for signal in $endings; do
+for signal in $endings $rarer; do
     rm -f "$work/gnuplot"
     begin_command "${plot[@]}"
     for _ in $(seq 200); do

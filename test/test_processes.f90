@@ -2,7 +2,7 @@ module test_processes
     !! Signals and other programs: seen in processes of their own.
     use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
-    use lagrangia_c_library, only: c_exit, c_signal
+    use lagrangia_c_library, only: c_ending, c_exit, c_signal
     use lagrangia_console, only: finish_console, put_line
     use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
@@ -31,6 +31,7 @@ contains
         suite = TestSuite("processes")
         call suite%addTest(TestMethod("signals_are_remembered", signals_are_remembered))
         call suite%addTest(TestMethod("every_ending_has_its_status", every_ending_has_its_status))
+        call suite%addTest(TestMethod("a_library_keeps_its_signal", a_library_keeps_its_signal))
         call suite%addTest(TestMethod("a_second_sigint_kills", a_second_sigint_kills))
         call suite%addTest(TestMethod("who_does_not_look_is_ended", who_does_not_look_is_ended))
         call suite%addTest(TestMethod("ignored_signals_stay_ignored", ignored_signals_stay_ignored))
@@ -69,14 +70,20 @@ contains
     end function catch_sigterm
 
     subroutine every_ending_has_its_status()
-        !! SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU: seen by who looks; the second of a kind
-        !! removes what is unfinished as the first would a second later.
+        !! SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, and those of which the system has to say
+        !! that there are any: seen by who looks; the second of a kind removes what is unfinished as
+        !! the first would a second later.
         character(:), allocatable :: folder
-        integer :: i
+        integer(c_int) :: i
 
         folder = new_folder("twice")
-        do i = 1, size(endings)
-            chosen = endings(i)
+        call assertTrue(c_ending(5_c_int) > 0, message="SIGPROF, the fifth of all Unix systems")
+        i = 0
+        do
+            i = i + 1
+            if (i <= size(endings)) chosen = endings(i)
+            if (i > size(endings)) chosen = c_ending(i - size(endings, kind=c_int))
+            if (chosen == 0) exit
             call assertEqual(128 + int(chosen), exit_status(catch_chosen), message="seen")
             call assertEqual(128 + int(chosen), exit_status(raise_twice), message="the second")
             call assertEqual("lagrangia: interrupted"//new_line("a"), contents(folder//"/err"))
@@ -84,6 +91,30 @@ contains
         end do
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine every_ending_has_its_status
+
+    subroutine a_library_keeps_its_signal()
+        !! What somebody else answers is not asked of us.
+        call assertEqual(7, exit_status(raise_anothers))
+    end subroutine a_library_keeps_its_signal
+
+    function raise_anothers() result(status)
+        !! 7 if the handler that was there before, as that of MPI, ends this process.
+        integer :: status
+        type(c_funptr) :: old
+
+        old = c_signal(c_ending(1_c_int), c_funloc(end_with_seven))
+        call catch_interrupts()
+        status = int(c_raise(c_ending(1_c_int)))
+        status = interrupt_status()
+    end function raise_anothers
+
+    subroutine end_with_seven(number) bind(c)
+        !! A handler.
+        integer(c_int), value :: number
+
+        number = 7
+        call c_exit(number)
+    end subroutine end_with_seven
 
     function catch_chosen() result(status)
         !! What the chosen signal leads to.

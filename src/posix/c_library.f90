@@ -5,12 +5,13 @@ module lagrangia_c_library
         c_short, c_size_t
     implicit none (type, external)
     private
-    public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
-              c_fclose, c_fdopen, c_fflush, c_fileno, c_first_of_all, c_flock, c_fopen, c_fork, &
-              c_fread, c_fread_reals, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, &
-              c_getppid, c_getrlimit, c_isatty, c_kill, c_lstat, c_malloc, c_mkdir, c_pipe, &
-              c_poll, c_realpath, c_remove, c_rename, c_setenv, c_setvbuf, c_signal, c_stat, &
-              c_statvfs, c_strerror, c_strlen, c_terminal_columns, c_waitpid, c_write, poll_t
+    public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_ending, c_errno, &
+              c_execvp, c_exit, c_fclose, c_fdopen, c_fflush, c_fileno, c_first_of_all, &
+              c_flock, c_fopen, c_fork, c_fread, c_fread_reals, c_free, c_fseek, c_fwrite, &
+              c_fwrite_reals, c_getpid, c_getppid, c_getrlimit, c_isatty, c_kill, c_lstat, &
+              c_malloc, c_mkdir, c_pipe, c_poll, c_realpath, c_remove, c_rename, c_setenv, &
+              c_setvbuf, c_signal, c_stat, c_statvfs, c_strerror, c_strlen, &
+              c_terminal_columns, c_waitpid, c_write, poll_t
 
     type, bind(c) :: poll_t
         !! C's `struct pollfd`.
@@ -254,6 +255,13 @@ module lagrangia_c_library
             type(c_funptr), value :: handler
             type(c_funptr) :: old
         end function c_signal
+
+        function c_ending(which) bind(c, name="lagrangia_ending") result(number)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: which
+            integer(c_int) :: number
+        end function c_ending
 
         function c_alarm(seconds) bind(c, name="alarm") result(left)
             import :: c_int
