@@ -184,6 +184,9 @@ contains
         call assertFalse(d%quantities(3)%conserved, "the weight turns it")
         call assertTrue(d%quantities(4)%conserved, "the energy stays")
         call assertTrue(d%quantities(5)%conserved, "the radius stays")
+        call own(circle, "m = 2 k = 0 c = 1e-20", system, d)
+        call assertFalse(d%quantities(3)%conserved, "a weight that only slow motions show")
+        call assertTrue(all(d%quantities(4:5)%conserved), "energy and radius stay")
     end subroutine constraints_are_kept
 
     subroutine drift_has_a_size()
@@ -248,6 +251,26 @@ contains
         call assertTrue(ledger%row_of("L_z is conserved") > 0, "a row")
         call assertTrue(ledger%row_of("L_z as printed") > 0, "a row of the formula")
         call assertTrue(ledger%row_of("A as printed") > 0, "a row of one made of another")
+        call turning(1e31_dp)
+        call turning(3e25_dp)
+        call turning(-1e20_dp)
+    contains
+        subroutine turning(w)
+            !! A plane that turns so fast (Foucault's, with a day of 1e-30 s) that the energy is a
+            !! difference of terms which are larger still where its rate is taken.
+            real(dp), intent(in) :: w
+            type(ledger_t) :: rows
+            integer :: k
+
+            call own("coordinates = 'x', 'y' parameters = 'm', 'l', 'w' T = 'm/2 (x_dot^2 + "// &
+                     "y_dot^2) + m w (x y_dot - y x_dot)' V = 'm/(2 l) (x^2 + y^2)'", &
+                     "m = 1 l = 2 w = 1", system, d)
+            call audit_system(system, rows, [.false., .false., .true.], [1.0_dp, 2.0_dp, w])
+            do k = 1, size(rows%rows)
+                call assertTrue(rows%rows(k)%holds, trim(rows%rows(k)%name)//": "// &
+                                trim(rows%rows(k)%remark))
+            end do
+        end subroutine turning
     end subroutine audited
 
     subroutine echoed()

@@ -58,7 +58,8 @@ contains
         !! From the shortest step on, each time four times as long, as long as the rates agree
         !! within their noise: a step that is too long shows, whatever its own estimate says. It
         !! ends where the noise is small enough: what is fast and too small to show at a short
-        !! step would be averaged away by a long one.
+        !! step would be averaged away by a long one. Where even the ends of a step are another
+        !! place or velocity altogether, the terms of the quantity are as large as there.
         !!
         !! Source: O. V. Lepskii, Theory Probab. Appl. 35, 454 (1991).
         class(system_t), intent(in) :: system
@@ -68,7 +69,8 @@ contains
         integer, parameter :: steps = 20
         real(dp), parameter :: values = 2.0_dp*sum(abs(order8))  !! as many add up, each rounded
         real(dp), parameter :: enough = 1e-12_dp  !! of the quantity, a second
-        real(dp) :: next, now, other, largest, now_noise
+        real(dp), parameter :: elsewhere = 10.0_dp  !! times the size of what changes
+        real(dp) :: next, now, other, largest, now_noise, terms
         integer :: k
 
         h = 0.1_dp/(1.0_dp + maxval(abs(v)) + sqrt(maxval(abs(a))))*0.25_dp**steps
@@ -78,8 +80,11 @@ contains
         do k = 0, steps
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order6, other)
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order8, now, largest)
-            now_noise = abs(now - other) + (values*epsilon(h)*(size_of_terms + largest) &
-                                            + tiny(h))/next
+            terms = size_of_terms
+            if (4.0_dp*next*maxval(abs(a)) > elsewhere*maxval(abs(v)) .or. &
+                4.0_dp*next*maxval(abs(v)) > elsewhere*maxval(abs(q))) terms = terms + &
+                size_from_state(system, i, t + 4.0_dp*next, q + 4.0_dp*next*v, v + 4.0_dp*next*a)
+            now_noise = abs(now - other) + (values*epsilon(h)*(terms + largest) + tiny(h))/next
             if (k > 0) then
                 if (.not. abs(now - rate) <= 3.0_dp*noise) return
                 if (.not. now_noise < noise) then
