@@ -105,19 +105,24 @@ contains
     end subroutine between_steps
 
     subroutine faster_than_the_steps()
-        !! A decay of which the rows show nothing: \(e^{-bt/m}\), sampled each 0.02 s. Where it
-        !! takes too many steps the run says so.
+        !! A decay of which the rows show nothing: \(e^{-bt/m}\), sampled each 0.02 s. A closed form
+        !! is followed through it however fast it is; where it takes too many steps of a method the
+        !! run says so.
         character(:), allocatable :: message
         real(dp) :: drift
 
         call of_drag("'auto'", "1e2")
         call of_drag("'auto'", "1e4")
         call of_drag("'auto'", "1e6")
+        call of_drag("'auto'", "1e8")
+        call of_drag("'auto'", "1e10")
+        call of_drag("'auto'", "1e14")
         call of_drag("'gauss16'", "1e2")
-        call drifted("system = 'oscillator', method = 'auto', dt = 0.02, duration = 1.0, "// &
-                     "q = 1.0, v = 0.5, columns = 't', 'work'", &
+        call drifted("system = 'oscillator', method = 'rk4', dt = 0.02, duration = 1.0, "// &
+                     "q = 1.0, v = 0.5, columns = 't', 'work', 'error'", &
                      "&oscillator m = 1.0, k = 4.0, b = 1e9 /", drift, message)
         call assertTrue(index(message, "not resolved between the steps") > 0, message)
+        call assertTrue(index(message, "'auto' takes the closed form") > 0, message)
     contains
         subroutine of_drag(method, b)
             character(*), intent(in) :: method, b

@@ -61,6 +61,7 @@ module lagrangia_integrator
         integer :: points_a_step = 8      !! between two of them the motion hardly turns
         logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
+        logical :: whole = .false.        !! knows all of the motion at all times, and no steps
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0
     contains

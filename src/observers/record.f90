@@ -120,11 +120,24 @@ contains
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)
             if (.not. ieee_is_finite(self%work%done())) error%message = error%message// &
-                ": the work is not resolved between the steps: shorten them, or give a tolerance"
+                ": the work is not resolved between the steps: "//remedy(self%reference)
             return
         end if
         call self%keep(self%row, self%shown, error)
     end subroutine observe
+
+    pure function remedy(reference) result(text)
+        !! Of steps over which a friction ends. Where it does so far faster than they can become, a
+        !! closed form is all that helps.
+        class(reference_t), allocatable, intent(in) :: reference
+        character(:), allocatable :: text
+        logical :: known
+
+        text = "shorten them, or give a tolerance"
+        known = allocated(reference)
+        if (known) known = reference%has_state
+        if (known) text = text//"; method 'auto' takes the closed form, which needs no steps"
+    end function remedy
 
     pure function follows(self)
         !! See `observer_t`: for the work along the motion.

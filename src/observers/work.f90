@@ -4,15 +4,16 @@ module lagrangia_work
     !! constraints \(A\dot q + b = 0\): \(E - W\) is conserved.
     !!
     !! A method with dense output is asked inside its step, at eight Gauss-Legendre nodes of each
-    !! part of it. Between two steps of another a coordinate is the quintic that has both ends'
-    !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\). Where the
-    !! cubic of coordinates and velocities alone has another W, the step is too long for that, as
-    !! where a decay is faster than the steps: `dop853` then goes through it. W is no number where
+    !! part of it; a closed form in ever shorter parts, while the rate turns within one, as where a
+    !! decay is faster than all times that are asked for. Between two steps of another method a
+    !! coordinate is the quintic that has both ends' coordinate, velocity and acceleration, so that
+    !! W is right to \(O(\Delta t^6)\). Where the cubic of coordinates and velocities alone has
+    !! another W, the step is too long for that: `dop853` then goes through it. W is no number where
     !! that would take too long.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
-    use lagrangia_gauss_tables, only: nodes, stages, weights
+    use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
     use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -26,6 +27,7 @@ module lagrangia_work
         !! The sum so far, of parts that nearly cancel: with what rounding took from it.
         class(system_t), allocatable :: system
         real(dp), private :: sum = 0.0_dp, rest = 0.0_dp   !! J
+        real(dp), private :: sizes = 0.0_dp                !! of the parts of a closed form, J
         real(dp), private :: t = 0.0_dp
         integer(i8), private :: steps_left = 1000000  !! of dop853; each step of the run adds some
         real(dp), allocatable, private :: q(:), v(:)
@@ -36,6 +38,7 @@ module lagrangia_work
         procedure :: follow_inside
         procedure :: stand
         procedure, private :: add
+        procedure, private :: add_part
         procedure, private :: go_through
     end type work_t
 
@@ -165,23 +168,75 @@ contains
         class(work_t), intent(inout) :: self
         class(dense_integrator_t), intent(in) :: method   !! has dense output of its latest step
         real(dp), intent(in) :: t                         !! s
-        real(dp) :: q(size(self%q)), v(size(self%q)), start, h, now, part
-        integer :: i, k, parts
+        integer, parameter :: least = 8, most = 64        !! parts; halvings of one
+        real(dp) :: q(size(self%q)), v(size(self%q)), start, h
+        integer :: i, parts
 
         if (t <= self%t) return
         start = self%t
-        parts = max(1, ceiling(method%points_a_step*(t - start)/(method%t_new - method%t_old)))
+        parts = 1
+        if (method%t_new > method%t_old) then
+            parts = max(1, ceiling(method%points_a_step*(t - start)/(method%t_new - method%t_old)))
+        end if
+        if (method%whole) parts = max(least, parts)
         h = (t - start)/parts
         do i = 1, parts
-            part = 0.0_dp
-            do k = 1, stages
-                now = start + (i - 1 + nodes(k))*h
-                call method%state_at(now, q, v)
-                part = part + weights(k)*energy_rate(self%system, now, q, v)
-            end do
-            call self%add(h*part)
+            call self%add_part(method, start + (i - 1)*h, h, merge(most, 0, method%whole))
         end do
         call method%state_at(t, q, v)
         call self%stand(t, q, v)
     end subroutine follow_inside
+
+    recursive subroutine add_part(self, method, start, h, halvings)
+        !! From `start` over `h`, in halves where the rate turns within that: where the two highest
+        !! of the eight Legendre coefficients that the nodes tell are no small part of it, or where
+        !! the rate at the start is another one than they say, as where it falls at once. What is
+        !! below the rounding of the sum is not looked at so closely.
+        class(work_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method
+        real(dp), intent(in) :: start, h                  !! s
+        integer, intent(in) :: halvings                   !! at most
+        real(dp) :: q(size(self%q)), v(size(self%q)), rate(stages), first, now, sizes
+        integer :: k
+
+        do k = 1, stages
+            now = start + nodes(k)*h
+            call method%state_at(now, q, v)
+            rate(k) = energy_rate(self%system, now, q, v)
+        end do
+        sizes = sum(weights*abs(rate))
+        if (halvings > 0 .and. self%steps_left > 0) then
+            call method%state_at(start, q, v)
+            first = energy_rate(self%system, start, q, v)
+            if (h*(sizes + abs(first)) > epsilon(h)*self%sizes .and. turns(rate, first)) then
+                self%steps_left = self%steps_left - 1
+                call self%add_part(method, start, 0.5_dp*h, halvings - 1)
+                call self%add_part(method, start + 0.5_dp*h, 0.5_dp*h, halvings - 1)
+                return
+            end if
+        end if
+        self%sizes = self%sizes + h*sizes
+        call self%add(h*sum(weights*rate))
+    end subroutine add_part
+
+    pure function turns(values, first) result(yes)
+        !! Whether \(\sum_n c_nP_n(2s - 1)\), which has these values at the nodes, \(c_n =
+        !! (2n + 1)\sum_k w_kf_kP_n(2s_k - 1)\), has large \(c_6\) or \(c_7\), or another value at
+        !! 0 than that.
+        real(dp), intent(in) :: values(:)  !! (stages)
+        real(dp), intent(in) :: first
+        logical :: yes
+        real(dp), parameter :: small = 1e-7_dp  !! of an eighth coefficient; the error is its square
+        real(dp), parameter :: near = 1e-5_dp   !! of the value at 0, where all coefficients add up
+        real(dp) :: c(0:stages - 1), p(stages, 0:stages - 1), sizes
+        integer :: n
+
+        call legendre(nodes, p)
+        do n = 0, stages - 1
+            c(n) = (2*n + 1)*sum(weights*values*p(:, n))
+        end do
+        sizes = sum(weights*abs(values))
+        yes = abs(c(6)) + abs(c(7)) > small*sizes .or. &
+              abs(sum(c(0::2)) - sum(c(1::2)) - first) > near*(sizes + abs(first))
+    end function turns
 end module lagrangia_work

@@ -29,6 +29,7 @@ contains
 
         self%name = "exact"
         self%points_a_step = 32768  ! all of the motion is one step
+        self%whole = .true.
         self%title = closed_form%title
         allocate (self%closed_form, source=closed_form)
     end subroutine new_exact_motion

@@ -1,7 +1,7 @@
 module lagrangia_run
     !! The one loop: a system, an integrator, and whoever wants to see the states.
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_class, only: all_finite
@@ -86,11 +86,21 @@ contains
         end function time_of
 
         subroutine follow(t)
+            ! A closed form knows the motion between the steps; of other methods only their ends
+            ! are known.
             real(dp), intent(in) :: t
             integer :: j
 
             do j = 1, size(observers)
-                if (observers(j)%item%follows()) call observers(j)%item%follow(system, t, q, v)
+                if (.not. observers(j)%item%follows()) cycle
+                select type (integrator)
+                class is (dense_integrator_t)
+                    if (integrator%whole) then
+                        call observers(j)%item%follow_inside(integrator, t)
+                        cycle
+                    end if
+                end select
+                call observers(j)%item%follow(system, t, q, v)
             end do
         end subroutine follow
 
