@@ -10,6 +10,7 @@ module test_principles
     use lagrangia_report, only: report_t
     use lagrangia_text, only: join, to_text
     use page_rows, only: page_once
+    use test_page_numbers, only: page_numbers_suite
     implicit none (type, external)
     private
     public :: principles_suite
@@ -117,6 +118,7 @@ contains
         call suite%addTest(TestMethod("lines_are_quoted", lines_are_quoted))
         call suite%addTest(TestMethod("rows_are_judged", rows_are_judged))
         call suite%addTest(TestMethod("refuses_unknown_names", refuses_unknown_names))
+        call suite%addTest(page_numbers_suite())
     end function principles_suite
 
     subroutine all_is_as_it_must_be()

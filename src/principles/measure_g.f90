@@ -10,6 +10,7 @@ module lagrangia_measure_g
     use lagrangia_computed_path, only: compute_path
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: rounded
     use lagrangia_random_draws, only: random_t
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
@@ -36,8 +37,9 @@ contains
         call errors_of_measurement(report)
         call best_masses(report)
         call draw_errors(report)
-        call report%note("M = 2 kg, h = 1.5 m; standard errors: watch 0.1 s, ruler 1 mm, each "// &
-                         "mass 1 g.")
+        call report%note("M = "//to_text(m)//" kg, h = "//to_text(h)//" m; standard errors: "// &
+                         "watch "//to_text(watch)//" s, ruler "//thousandths(ruler)// &
+                         " mm, each mass "//thousandths(scales)//" g.")
         call report%note("(sigma_g/g)^2 = 4 s_t^2/t^2 + s_h^2/h^2 + 4 (m1^2 + m2^2) "// &
                          "s_m^2/(m1^2 - m2^2)^2,")
         call report%note("M = m1 + m2; s_t, s_h, s_m: those of watch, ruler and mass. It is of "// &
@@ -46,6 +48,14 @@ contains
                          " simulated measurements; those of")
         call report%note("each difference of masses have the same random numbers.")
     end subroutine measure_g_principle
+
+    pure function thousandths(value) result(text)
+        !! A mass in kg as one in g, a length in m as one in mm.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+
+        text = to_text(nint(1000.0_dp*value))
+    end function thousandths
 
     pure function best_share() result(share)
         !! \(\varepsilon = (2h\sigma_m^2/(M^2g\sigma_t^2))^{1/3}\).
@@ -74,13 +84,15 @@ contains
         call time_of_fall(share, 0.0_dp, radius, t, error)
         if (.not. allocated(error)) call time_of_fall(share, pulley, radius, slow, error)
         if (allocated(error)) return
-        call report%section("m1 = 1.1 kg, m2 = 0.9 kg: a fall, simulated, and its time to h; "// &
-                            "I, R: of a pulley")
+        call report%section("m1 = "//rounded(0.5_dp*m*(1.0_dp + share), 3)//" kg, m2 = "// &
+                            rounded(0.5_dp*m*(1.0_dp - share), 3)//" kg: a fall, simulated, "// &
+                            "and its time to h; I, R: of a pulley")
         call report%equal("t = sqrt(2 h M/((m1 - m2) g))  [s]", t, sqrt(2.0_dp*h/(share*g)), &
                           simulated)
         call report%equal("g = 2 h M/((m1 - m2) t^2)  [m/s^2]", 2.0_dp*h/(share*t**2), g, &
                           20.0_dp*simulated)
-        call report%equal("I/R^2 = 0.2 kg: g M/(M + I/R^2)  [m/s^2]", &
+        call report%equal("I/R^2 = "//rounded(pulley/radius**2, 3)// &
+                          " kg: g M/(M + I/R^2)  [m/s^2]", &
                           2.0_dp*h/(share*slow**2), g*m/(m + pulley/radius**2), 20.0_dp*simulated)
         call report%equal("with that pulley: is it g?  [m/s^2]", 2.0_dp*h/(share*slow**2), g, &
                           20.0_dp*simulated, control=.true.)
@@ -159,18 +171,19 @@ contains
         !! The formula beside simulated measurements.
         type(report_t), intent(inout) :: report
         real(dp), parameter :: shares(3) = [0.01_dp, 0.02_dp, 0.05_dp]
-        character(5), parameter :: names(3) = ["20 g ", "40 g ", "100 g"]
+        real(dp), parameter :: much = 0.5_dp
         integer :: i
 
         call report%section("sigma_g/g: simulated measurements, and from the three errors")
         do i = 1, size(shares)
             associate (sigma => relative_error(shares(i)))
-                call report%equal("m1 - m2 = "//names(i), scatter(shares(i)), sigma, &
-                                  most_scattered(sigma))
+                call report%equal("m1 - m2 = "//thousandths(shares(i)*m)//" g", &
+                                  scatter(shares(i)), sigma, most_scattered(sigma))
             end associate
         end do
-        call report%equal("is a difference of 1 kg as good as 40 g?", scatter(0.5_dp), &
-                          scatter(0.02_dp), 1e-5_dp, control=.true.)
+        call report%equal("is a difference of "//to_text(nint(much*m))//" kg as good as "// &
+                          thousandths(shares(2)*m)//" g?", scatter(much), scatter(shares(2)), &
+                          1e-5_dp, control=.true.)
     end subroutine errors_of_measurement
 
     subroutine best_masses(report)

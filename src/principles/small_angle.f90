@@ -6,6 +6,7 @@ module lagrangia_small_angle
     use lagrangia_computed_path, only: compute_path
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: rounded
     use lagrangia_reference, only: reference_t
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
@@ -16,6 +17,7 @@ module lagrangia_small_angle
     real(dp), parameter :: m1 = 1.0_dp, m2 = 0.5_dp, l = 0.8_dp, g = 9.81_dp
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: steps = 2000   !! of a quarter of a period
+    real(dp), parameter :: top = 2.0_dp/(3.0_dp*sqrt(3.0_dp))  !! the largest of cos^2 sin
 
     type :: swing_t
         !! One swing from rest at the amplitude, by a computed motion.
@@ -54,11 +56,20 @@ contains
         call report%note("Cart-pendulum: m1 = "//to_text(m1)//" kg, m2 = "//to_text(m2)// &
                          " kg, l = "//to_text(l)//" m, g = "//to_text(g)//" m/s^2.")
         call report%note("w^2 = (m1 + m2) g/(m1 l).")
-        call report%note("Powers: log2 of the ratio of two swings, A = 1/80 and 1/160 rad; "// &
-                         "they "// &
-                         "are whole but for A^2.")
-        call report%note("2/(3 sqrt(3)) = 0.3849 is the largest value of cos^2(wt) sin(wt).")
+        call report%note("Powers: log2 of the ratio of two swings, A = "// &
+                         one_over(ladder(rungs - 1)%amplitude)//" and "// &
+                         one_over(ladder(rungs)%amplitude)//" rad; they are whole but for A^2.")
+        call report%note("2/(3 sqrt(3)) = "//rounded(top, 4)//" is the largest value of "// &
+                         "cos^2(wt) sin(wt).")
     end subroutine small_angle_principle
+
+    pure function one_over(amplitude) result(text)
+        !! `1/80`.
+        real(dp), intent(in) :: amplitude  !! one over a whole number, but for rounding
+        character(:), allocatable :: text
+
+        text = "1/"//to_text(nint(1.0_dp/amplitude))
+    end function one_over
 
     pure function frequency() result(omega)
         !! \(\omega = \sqrt{(m_1+m_2)g/(m_1l)}\).
@@ -101,7 +112,6 @@ contains
         !! Of the amplitude.
         type(swing_t), intent(in) :: two(2)  !! the second of half the amplitude
         type(report_t), intent(inout) :: report
-        real(dp), parameter :: top = 2.0_dp/(3.0_dp*sqrt(3.0_dp))  !! of cos^2 sin
         real(dp) :: a, w, within, top_of(2, 3)
         integer :: i
 

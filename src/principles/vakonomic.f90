@@ -4,8 +4,10 @@ module lagrangia_vakonomic
     use lagrangia_computed_path, only: compute_path
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: rounded
     use lagrangia_report, only: report_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_text, only: to_text
     use lagrangia_vakonomic_disk, only: new_vakonomic_disk, vakonomic_disk_t
     implicit none (type, external)
     private
@@ -16,7 +18,8 @@ module lagrangia_vakonomic
     real(dp), parameter :: i_roll = 0.5_dp*m*r**2, i_yaw = 0.25_dp*m*r**2
     real(dp), parameter :: roll = 4.0_dp, steer = 1.1_dp       !! rad/s, at the start
     real(dp), parameter :: kappa = 2.0_dp*g*sin(tilt)/(3.0_dp*r)  !! rad/s^2, of a disk that falls
-    real(dp), parameter :: turns = 3.0_dp
+    integer, parameter :: turns = 3
+    real(dp), parameter :: locked = 0.7_dp                     !! rad, where nothing steers
     integer, parameter :: steps = 2000                         !! in these turns
     real(dp), parameter :: step = turns*2.0_dp*pi/steer/steps  !! s
     real(dp), parameter :: drift = 1e-11_dp                    !! rounding of 2000 steps, m
@@ -39,15 +42,15 @@ contains
         call draw_paths(true, inside, report)
         call report%note("Inside L: L + mu1 (x_dot - R phi_dot sin(theta)) + mu2 (y_dot + R "// &
                          "phi_dot cos(theta)),")
-        call report%note("'vakonomic'. x points down the incline of 0.1 rad. A disk of 1.3 "// &
-                         "kg, R = 0.3 m, phi_dot")
-        call report%note("= 4 rad/s and theta_dot = 1.1 rad/s at first, theta = 0 (along "// &
-                         "-y), mu1 = mu2 = 0 there;")
-        call report%note("steering locked: theta = 0.7, theta_dot = 0. Moments of inertia m "// &
-                         "R^2/2 about the axle,")
-        call report%note("m R^2/4 about a diameter; kappa = 2 g sin(0.1)/(3 R): phi_ddot of "// &
-                         "one that rolls")
-        call report%note("straight down; g = 9.81 m/s^2.")
+        call report%note("'vakonomic'. x points down the incline of "//to_text(tilt)// &
+                         " rad. A disk of "//to_text(m)//" kg, R = "//to_text(r)//" m, phi_dot")
+        call report%note("= "//to_text(roll)//" rad/s and theta_dot = "//to_text(steer)// &
+                         " rad/s at first, theta = 0 (along -y), mu1 = mu2 = 0 there;")
+        call report%note("steering locked: theta = "//to_text(locked)//", theta_dot = 0. "// &
+                         "Moments of inertia m R^2/2 about the axle,")
+        call report%note("m R^2/4 about a diameter; kappa = 2 g sin("//to_text(tilt)// &
+                         ")/(3 R): phi_ddot of one that rolls")
+        call report%note("straight down; g = "//to_text(g)//" m/s^2.")
     end subroutine vakonomic_principle
 
     subroutine start_of(heading, steering, disk, inside, q0, v0, error)
@@ -81,7 +84,8 @@ contains
         if (.not. allocated(error)) call compute_path("gauss16", disk, 0.0_dp, step, q0, v0, &
                                                       true, v, error)
         if (allocated(error)) return
-        call report%section("D'Alembert, as disks roll: three turns of the heading, 17.1 s")
+        call report%section("D'Alembert, as disks roll: "//to_text(turns)//" turns of the "// &
+                            "heading, "//rounded(steps*step, 3)//" s")
         call disk%accelerations(0.0_dp, q0, v0, a)
         call report%equal("theta_ddot = 0: nothing steers  [rad/s^2]", a(4), 0.0_dp, 0.0_dp)
         call report%equal("x: it comes back up the incline  [m]", true(1, steps + 1), 0.0_dp, drift)
@@ -93,7 +97,8 @@ contains
                             "slipping, "// &
                             "but otherwise")
         call inside%accelerations(0.0_dp, q0, v0, a)
-        call report%equal("is theta_ddot = 0?  after 17.1 s  [rad/s^2]", &
+        call report%equal("is theta_ddot = 0?  after "//rounded(steps*step, 3)// &
+                          " s  [rad/s^2]", &
                           steering_at_end(), 0.0_dp, drift, control=.true.)
         call report%equal("does it come back, x = 0?  [m]", other(1, steps + 1), 0.0_dp, drift, &
                           control=.true.)
@@ -127,7 +132,7 @@ contains
         !! A heading that is held: the constraint can be integrated, and both ways are right.
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
-        real(dp), parameter :: heading = 0.7_dp, time = 3.0_dp
+        real(dp), parameter :: heading = locked, time = 3.0_dp
         integer, parameter :: n = 300
         type(rolling_disk_t) :: disk
         type(vakonomic_disk_t) :: inside
@@ -140,8 +145,8 @@ contains
         if (.not. allocated(error)) call compute_path("gauss16", inside, 0.0_dp, time/n, q0, v0, &
                                                       other, v, error)
         if (allocated(error)) return
-        call report%section("steering locked at 0.7 rad: x = x(phi), a holonomic constraint; "// &
-                            "after 3 s")
+        call report%section("steering locked at "//to_text(heading)//" rad: x = x(phi), a "// &
+                            "holonomic constraint; after "//to_text(nint(time))//" s")
         call report%equal("x: D'Alembert, inside L  [m]", q(1, n + 1), other(1, n + 1), drift)
         call report%equal("y: D'Alembert, inside L  [m]", q(2, n + 1), other(2, n + 1), drift)
         call report%equal("phi = phi_dot t + kappa sin(theta) t^2/2", other(3, n + 1), &
