@@ -220,6 +220,11 @@ check "compare: samples far apart are no steps" eval '[ $status -eq 0 ] && grep 
 refuses 2 "unknown picture format 'bmp'; there are png, svg, pdf" compare pendulum --methods rk4,verlet --plot=bmp --output "$work/none"
 refuses 2 "--overlay: two scenes at least are needed" run pendulum --overlay --output "$work/none"
 refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output=overlay --output "$work/none"
+"$program" show pendulum >"$work/over.nml"
+sed -i "s/&scene/\&scene output = 'overlay'/" "$work/over.nml"
+refuses 2 "the overlay script '$work/none/overlay.gp' and the data script" run "$work/over.nml" cart_pendulum --overlay --output "$work/none"
+sed -i "s/'overlay'/'overlay.svg'/" "$work/over.nml"
+refuses 2 "the overlay picture '$work/none/overlay.svg' and the data file" run "$work/over.nml" cart_pendulum --overlay --output "$work/none"
 check "compare, --overlay: what is refused leaves no file" [ ! -e "$work/none" ]
 run modes double_pendulum --quiet --output "$work/cmp"
 check "modes --output: the mechanism, two rods and two masses a side" eval '[ $status -eq 0 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 1" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 0" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(grep -c "^set title \"" "$work/cmp/double_pendulum_modes.gp")" -eq 2 ]'
@@ -602,6 +607,10 @@ printf '%s\n' "&scene system = 'own', method = 'gauss16', tolerance = 1e-9, dura
     "&own m = 1 /" >"$work/stick.nml"
 run run "$work/stick.nml" --output "$work/stick"
 check "run: of dry friction it says that it does not hold a body" \
+    grep -qF "'sgn(x_dot)' jumps where the motion turns" "$work/err"
+sed "s/Q_x = '-0.3 sgn(x_dot) /definitions = 'R = 0.3 sgn(x_dot)', Q_x = '-R /" "$work/stick.nml" >"$work/slip.nml"
+run run "$work/slip.nml" --output "$work/stick"
+check "run: nor where the jump stands in a definition" \
     grep -qF "'sgn(x_dot)' jumps where the motion turns" "$work/err"
 sed -i 's/-0.3 sgn(x_dot) //' "$work/stick.nml"
 run run "$work/stick.nml" --output "$work/stick"

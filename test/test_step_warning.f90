@@ -1,5 +1,5 @@
 module test_step_warning
-    !! The warning before a run that blows up.
+    !! The warnings before a run: of one that blows up, and of dry friction.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
@@ -7,6 +7,7 @@ module test_step_warning
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
     use scene_runs, only: read_and_plan
+    use test_friction_warning, only: friction_warning_suite
     implicit none (type, external)
     private
     public :: step_warning_suite
@@ -22,6 +23,7 @@ contains
         call suite%addTest(TestMethod("a_long_chain_needs_no_modes", a_long_chain_needs_no_modes))
         call suite%addTest(TestMethod("nothing_is_said_without_a_limit", &
                                       nothing_is_said_without_a_limit))
+        call suite%addTest(friction_warning_suite())
     end function step_warning_suite
 
     function warning_of(system_name, steps, parameters) result(text)

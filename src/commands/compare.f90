@@ -27,7 +27,7 @@ module lagrangia_compare
     use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: heading, scene_t
-    use lagrangia_scene_claims, only: claim_files, claim_scene, claim_table, size_warning
+    use lagrangia_scene_claims, only: claim_files, claim_picture, claim_scene, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
     use lagrangia_shipped, only: find_scene
@@ -161,7 +161,9 @@ contains
                                                          folder, format, places, error)
             if (allocated(error)) return
         end do
-        call claim_table(overlay_path(folder, name), "overlay", "", places, error)
+        call claim_picture(overlay_path(folder, name), "overlay", "", places, error)
+        if (line%has("animate") .and. .not. allocated(error)) call places%add( &
+            film_path(overlay_path(folder, name)), "film", "", error)
         if (.not. allocated(error)) call refuse_unwritable( &
             script_path(overlay_path(folder, name)), error)
         if (line%has("animate") .and. .not. allocated(error)) call refuse_unwritable( &

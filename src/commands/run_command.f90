@@ -24,7 +24,7 @@ module lagrangia_run_command
     use lagrangia_progress, only: progress_t
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_claims, only: claim_files, claim_scene, claim_table, size_warning
+    use lagrangia_scene_claims, only: claim_files, claim_picture, claim_scene, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
     use lagrangia_scorecard, only: missed_text, scorecard_head, scorecard_legend, scorecard_lines, &
@@ -226,7 +226,7 @@ contains
                                   "drawn in one picture")
         if (allocated(error)) return
         path = overlay_path(folder, overlay)
-        call claim_table(path, "overlay", "", places, error)
+        call claim_picture(path, "overlay", "", places, error)
         if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
     end subroutine check_overlay
 

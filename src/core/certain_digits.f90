@@ -6,6 +6,10 @@ module lagrangia_certain_digits
     implicit none (type, external)
     private
     public :: certain, certain_scientific, number, share_of
+    public :: share_of_last
+
+    real(dp), parameter :: share_of_last = 5e-12_dp
+    !! half of the last digit that `number` may print, of the smallest number of that many digits
 
 contains
 
@@ -21,7 +25,7 @@ contains
         decimals = digits_of(share) - 1 - floor(log10(abs(value)))
         if (is_handy(value) .and. decimals >= 0 .and. share < 0.5_dp) then
             text = fixed(value, min(decimals, 11))
-        else if (share > 5e-12_dp) then
+        else if (share > share_of_last) then
             text = certain_scientific(value, share, 12)
         end if
     end function certain

@@ -14,7 +14,7 @@ module lagrangia_scene_claims
     use lagrangia_text, only: quoted
     implicit none (type, external)
     private
-    public :: claim_alone, claim_files, claim_scene, claim_table, size_warning
+    public :: claim_alone, claim_files, claim_picture, claim_scene, claim_table, size_warning
 
     character(*), parameter :: written_by = "! lagrangia "  !! a scene of ours begins with it
 
@@ -68,16 +68,11 @@ contains
         type(places_t), intent(inout) :: places  !! claimed so far; gets these
         type(error_t), allocatable, intent(out) :: error  !! names both owners
         character(:), allocatable :: stem
-        integer :: i
 
         stem = script_path(path)
         stem = stem(:len(stem) - 2)
         call places%add(path, kind//" file", owner, error)
-        if (.not. allocated(error)) call places%add(stem//"gp", kind//" script", owner, error)
-        do i = 1, size(pictures)
-            if (.not. allocated(error)) call places%add(stem//pictures(i), kind//" picture", &
-                                                        owner, error)
-        end do
+        if (.not. allocated(error)) call claim_picture(path, kind, owner, places, error)
         if (.not. allocated(error)) call places%add(stem//"html", kind//" animation", owner, error)
         if (.not. allocated(error)) call places%add(scene_path(path), "scene of the "//kind// &
                                                     " file", owner, error)
@@ -86,6 +81,23 @@ contains
         if (.not. allocated(error) .and. path /= stem//"dat") call keep_scene(scene_path(path), &
                                                                               error)
     end subroutine claim_table
+
+    subroutine claim_picture(path, kind, owner, places, error)
+        !! The script and the pictures beside a table, or of several tables together.
+        character(*), intent(in) :: path, kind, owner
+        !! of the table, if there is one; `data`, `overlay`; a scene's name
+        type(places_t), intent(inout) :: places  !! claimed so far; gets these
+        type(error_t), allocatable, intent(out) :: error  !! names both owners
+        character(:), allocatable :: script
+        integer :: i
+
+        script = script_path(path)
+        call places%add(script, kind//" script", owner, error)
+        do i = 1, size(pictures)
+            if (.not. allocated(error)) call places%add(script(:len(script) - 2)//pictures(i), &
+                                                        kind//" picture", owner, error)
+        end do
+    end subroutine claim_picture
 
     subroutine keep_scene(path, error)
         !! The scene beside a csv or npy file takes the place of an earlier one that was written

@@ -1,7 +1,7 @@
 module lagrangia_scorecard
     !! The scorecard: a row a scene in 80 columns and, for those who name the scene, lines below it
     !! that say in words what was measured.
-    use lagrangia_certain_digits, only: certain_scientific
+    use lagrangia_certain_digits, only: certain_scientific, share_of_last
     use lagrangia_characters, only: printable
     use lagrangia_counted, only: counted
     use lagrangia_kinds, only: dp
@@ -165,7 +165,7 @@ contains
 
             text = number(value)
             if (present(share)) then
-                if (share > 5e-12_dp) text = certain_scientific(value, share, 11)
+                if (share > share_of_last) text = certain_scientific(value, share, 11)
             end if
             call append_word(lines, left("    "//name, 12)//left(text//" "//unit, 20)//meaning)
         end subroutine add_number
