@@ -86,8 +86,8 @@ contains
         end function time_of
 
         subroutine follow(t)
-            ! A closed form knows the motion between the steps; of other methods only their ends
-            ! are known.
+            ! A closed form knows the motion between the steps, which who sums from sample to sample
+            ! may ask; of other methods only their ends are known.
             real(dp), intent(in) :: t
             integer :: j
 
@@ -95,7 +95,7 @@ contains
                 if (.not. observers(j)%item%follows()) cycle
                 select type (integrator)
                 class is (dense_integrator_t)
-                    if (integrator%whole) then
+                    if (integrator%whole .and. observers(j)%item%follows_samples()) then
                         call observers(j)%item%follow_inside(integrator, t)
                         cycle
                     end if
