@@ -251,6 +251,7 @@ contains
         call assertTrue(ledger%row_of("L_z is conserved") > 0, "a row")
         call assertTrue(ledger%row_of("L_z as printed") > 0, "a row of the formula")
         call assertTrue(ledger%row_of("A as printed") > 0, "a row of one made of another")
+        call turning(1e41_dp)
         call turning(1e31_dp)
         call turning(3e25_dp)
         call turning(-1e20_dp)
@@ -262,9 +263,9 @@ contains
             type(ledger_t) :: rows
             integer :: k
 
-            call own("coordinates = 'x', 'y' parameters = 'm', 'l', 'w' T = 'm/2 (x_dot^2 + "// &
-                     "y_dot^2) + m w (x y_dot - y x_dot)' V = 'm/(2 l) (x^2 + y^2)'", &
-                     "m = 1 l = 2 w = 1", system, d)
+            call own("coordinates = 'x', 'y' parameters = 'm', 'l', 'w' domain = 'm > 0', "// &
+                     "'l > 0' T = 'm/2 (x_dot^2 + y_dot^2) + m w (x y_dot - y x_dot)' "// &
+                     "V = 'm/(2 l) (x^2 + y^2)'", "m = 1 l = 2 w = 1", system, d)
             call audit_system(system, rows, [.false., .false., .true.], [1.0_dp, 2.0_dp, w])
             do k = 1, size(rows%rows)
                 call assertTrue(rows%rows(k)%holds, trim(rows%rows(k)%name)//": "// &

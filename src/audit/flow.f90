@@ -70,7 +70,7 @@ contains
         real(dp), parameter :: values = 2.0_dp*sum(abs(order8))  !! as many add up, each rounded
         real(dp), parameter :: enough = 1e-12_dp  !! of the quantity, a second
         real(dp), parameter :: elsewhere = 10.0_dp  !! times the size of what changes
-        real(dp) :: next, now, other, largest, now_noise, terms
+        real(dp) :: next, now, other, largest, now_noise, terms, q_far(size(q)), v_far(size(q))
         integer :: k
 
         h = 0.1_dp/(1.0_dp + maxval(abs(v)) + sqrt(maxval(abs(a))))*0.25_dp**steps
@@ -82,8 +82,12 @@ contains
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order8, now, largest)
             terms = size_of_terms
             if (4.0_dp*next*maxval(abs(a)) > elsewhere*maxval(abs(v)) .or. &
-                4.0_dp*next*maxval(abs(v)) > elsewhere*maxval(abs(q))) terms = terms + &
-                size_from_state(system, i, t + 4.0_dp*next, q + 4.0_dp*next*v, v + 4.0_dp*next*a)
+                4.0_dp*next*maxval(abs(v)) > elsewhere*maxval(abs(q))) then
+                q_far = q + 4.0_dp*next*v
+                v_far = v + 4.0_dp*next*a
+                terms = terms + system%natural_size(i, t + 4.0_dp*next, q_far, v_far) + &
+                        size_from_state(system, i, t + 4.0_dp*next, q_far, v_far)
+            end if
             now_noise = abs(now - other) + (values*epsilon(h)*(terms + largest) + tiny(h))/next
             if (k > 0) then
                 if (.not. abs(now - rate) <= 3.0_dp*noise) return
