@@ -199,6 +199,19 @@ done
 ended TERM
 check "check of a long chain: how long it takes is said" grep -q "^lagrangia: the audit of hanging_chain with 1000 coordinates takes about [0-9]* [a-z]*$" "$work/err"
 
+# So does a sweep, long before its first trajectory is done: in the lanes of registers, and one by one
+for kept in theta period; do
+    : >"$work/err"
+    ${heard[@]+"${heard[@]}"} "$program" sweep pendulum --set scene%dt=1e-11 --set scene%output=slow --over theta=0.1:0.2:10 --keep $kept --output "$work/days" >"$work/out" 2>"$work/err" </dev/null &
+    child=$!
+    for _ in $(seq 400); do
+        grep -q about "$work/err" && break
+        sleep 0.05
+    done
+    ended TERM
+    check "a sweep of $kept of 10 trajectories of 10^12 steps: how long it takes is said" grep -q "^lagrangia: pendulum takes about [0-9]* \(h\|days\|years\)$" "$work/err"
+done
+
 # Little stack, little memory: the command works, or says in one line what it lacks; it never hangs
 in_little() { # in_little LIMIT... -- WORDS...: OpenBLAS is left to its own devices
     local limit=()

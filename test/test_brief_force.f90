@@ -15,6 +15,7 @@ module test_brief_force
     use lagrangia_system, only: system_t
     use scene_runs, only: perform
     use sweep_numbers, only: compute_numbers, make_sweep, sweep_numbers_t
+    use test_thin_walls, only: thin_walls_suite
     implicit none (type, external)
     private
     public :: brief_force_suite
@@ -41,6 +42,7 @@ contains
         call suite%addTest(TestMethod("of any shape, at any time", moments_of_any_shape))
         call suite%addTest(TestMethod("functions of the time", functions_are_counted))
         call suite%addTest(TestMethod("steady forces have none", steady_forces))
+        call suite%addTest(thin_walls_suite())
     end function brief_force_suite
 
     subroutine own(lines, system, values)

@@ -1,8 +1,8 @@
 module test_dense_run
     !! Samples between the steps of a method, and fixed steps made dense.
     use event_runs, only: find
-    use funit, only: anyExceptions, assertEqual, assertGreaterThan, assertTrue, TestMethod, &
-                     TestSuite
+    use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, assertTrue, &
+                     TestMethod, TestSuite
     use lagrangia_dense_run, only: run_dense
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
@@ -35,6 +35,7 @@ contains
         call suite%addTest(TestMethod("the motion is followed to every event and the end", &
                                       every_step_is_followed))
         call suite%addTest(TestMethod("a run that no computer ends is refused", endless_run))
+        call suite%addTest(TestMethod("steps that have become ever shorter", shrunken_steps))
         call suite%addTest(TestMethod("between fixed steps the error is of order 6", &
                                       interpolation_order))
     end function dense_run_suite
@@ -230,6 +231,33 @@ contains
             end if
         end do
     end subroutine endless_run
+
+    subroutine shrunken_steps()
+        !! 10^5 steps went 6 s, and the next 10^5 only 10^-5 s: 10^10 would come to the end. Neither
+        !! steps that always were so short, nor some of them before the end, are refused.
+        call look(6.0_dp, 6.00001_dp, 10.0_dp, "6.0E+05 times shorter at t = 106.00001 s")
+        call look(6.0_dp, 6.00001_dp, 6.001_dp, "")
+        call look(6.0_dp, 6.01_dp, 1e6_dp, "")
+        call look(1e-5_dp, 2e-5_dp, 10.0_dp, "")
+    contains
+        subroutine look(first, second, t_end, told)
+            !! The times after 10^5 and 2 10^5 steps, since the start, which is at 100 s.
+            real(dp), intent(in) :: first, second, t_end
+            character(*), intent(in) :: told
+            type(dop853_t) :: method
+            type(error_t), allocatable :: error
+            real(dp), parameter :: t0 = 100.0_dp
+
+            call new_dop853(method)
+            method%t_new = t0 + first
+            call method%refuse_more(100000_i8, t0, t0 + t_end, error)
+            call assertFalse(allocated(error), "the first steps")
+            method%t_new = t0 + second
+            call method%refuse_more(200000_i8, t0, t0 + t_end, error)
+            call assertTrue((told /= "") .eqv. allocated(error), "the next: "//told)
+            if (allocated(error)) call assertTrue(index(error%message, told) > 0, error%message)
+        end subroutine look
+    end subroutine shrunken_steps
 
     subroutine interpolation_order()
         !! Two steps of `dop853`, which is as good as exact here, and the quintic in the second.

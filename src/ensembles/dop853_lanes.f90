@@ -6,14 +6,15 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force_search, only: find_brief_forces
+    use lagrangia_brief_force_search, only: find_brief_forces, find_place_functions
     use lagrangia_brief_forces, only: brief_forces_t
-    use lagrangia_dop853_control, only: first_step, least_error, next_steps
+    use lagrangia_dop853_control, only: first_step, least_error, next_steps, twice_too_long
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lane_method, only: lane_method_t
+    use lagrangia_place_functions, only: place_functions_t
     use lagrangia_roots, only: find_root, scalar_function_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
@@ -31,6 +32,7 @@ module lagrangia_dop853_lanes
         real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
         type(brief_forces_t) :: brief(lanes)         !! what no step goes over
+        type(place_functions_t), allocatable :: places(:)  !! nor what acts in one of these
         integer(i8) :: steps(lanes) = 0              !! of each trajectory
         real(dp) :: last_error(lanes) = least_error  !! of accepted steps, see `next_steps`
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
@@ -48,6 +50,7 @@ module lagrangia_dop853_lanes
         procedure :: flip_time
         procedure :: go_on
         procedure :: scale
+        procedure, private :: refuse_steps_over
         procedure, private :: see_inside
     end type dop853_lanes_t
 
@@ -75,6 +78,7 @@ contains
         self%trial = slopes(:, :, 1)
         self%k = slopes
         self%inside = coefficients
+        if (.not. allocated(self%places)) allocate (self%places(lanes))
         self%t_end = 0.0_dp
         self%t = 0.0_dp
         self%busy = .false.
@@ -96,6 +100,7 @@ contains
         call first_step(system, system%ndof, self%tolerance, scene%t0, self%t_end(lane), y, f, &
                         self%h(lane))
         call find_brief_forces(system, scene%t0, self%t_end(lane), self%brief(lane))
+        call find_place_functions(system, self%places(lane))
         self%y(lane, :) = y
         self%k(lane, :, 1) = f
         self%t(lane) = scene%t0
@@ -134,6 +139,7 @@ contains
         call stages(system, n, self%t, h, self%y, self%k, self%trial)
         call scaled_errors(n, h, self%tolerance, self%k, self%y, self%trial, scaled)
         call slopes(system, n, self%t + h, self%trial, self%k(:, :, 13))
+        call self%refuse_steps_over(h, scaled)
         self%moved = self%busy .and. scaled <= 1.0_dp
         self%steps = self%steps + merge(1, 0, self%moved)
         self%stuck = self%stuck .or. (self%busy .and. self%steps > self%most_steps)
@@ -153,6 +159,24 @@ contains
         self%t_old = merge(self%t, self%t_old, self%moved)
         self%t = merge(t_new, self%t, self%moved)
     end subroutine step
+
+    pure subroutine refuse_steps_over(self, h, scaled)
+        !! Attempts that go over a place where a function acts are to be about half as long.
+        class(dop853_lanes_t), intent(in) :: self
+        real(dp), intent(in) :: h(lanes)
+        real(dp), intent(inout) :: scaled(lanes)
+        real(dp), dimension(size(self%y, 2)) :: y, y_old
+        integer :: i, n
+
+        n = size(self%y, 2)/2
+        do i = 1, lanes
+            if (self%places(i)%count == 0 .or. .not. (self%busy(i) .and. scaled(i) <= 1.0_dp)) cycle
+            y_old = self%y(i, :)
+            y = self%trial(i, :)
+            if (self%places(i)%stepped_over(self%t(i), y_old(:n), y_old(n + 1:), self%t(i) + h(i), &
+                                            y(:n), y(n + 1:))) scaled(i) = twice_too_long
+        end do
+    end subroutine refuse_steps_over
 
     pure subroutine go_on(self, lane, t_end)
         !! A trajectory that has come to its end has a later one.

@@ -25,7 +25,8 @@ module lagrangia_sweep_grid
               thread_count
 
     integer, parameter :: most_threads = 10000
-    integer, parameter :: parts_a_trajectory = 1000  !! as which an observer hears of it
+    integer, parameter :: parts_a_trajectory = 1000000000
+    !! as which an observer hears of it: one of \(10^{12}\) steps tells something at once
 
     type :: sweep_result_t
         !! What a sweep gave. The numbers come block by block, each of them once and in order, by

@@ -1,14 +1,16 @@
 module lagrangia_brief_force_search
-    !! Where functions of the time in an own system's formulas act for a moment or turn at once, is
-    !! known before the first step.
+    !! What long steps would go over without a sign, in an own system's formulas: when functions of
+    !! the time act for a moment or turn at once is known before the first step; which functions of
+    !! the coordinates act in one place only is known, and each step is to be tried.
     use lagrangia_brief_forces, only: brief_forces_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_place_functions, only: place_functions_t
     use lagrangia_system, only: system_t
     use lagrangia_time_functions, only: kink, peak, time_functions_t
     implicit none (type, external)
     private
-    public :: find_brief_forces
+    public :: find_brief_forces, find_place_functions
 
     integer, parameter :: looks = 2000  !! times at which arguments of functions are looked at
 
@@ -30,6 +32,17 @@ contains
                             t_end)
         end select
     end subroutine find_brief_forces
+
+    pure subroutine find_place_functions(system, functions)
+        !! Those of its formulas, if it has any.
+        class(system_t), intent(in) :: system                !! with its parameters
+        type(place_functions_t), intent(out) :: functions    !! none where nothing is known
+
+        select type (system)
+        class is (lagrangian_system_t)
+            functions = system%place_functions
+        end select
+    end subroutine find_place_functions
 
     pure subroutine look_along(brief, functions, n, t0, t_end)
         !! From one look before the start to one behind the end: what is 0 there is no sign.

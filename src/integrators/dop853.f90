@@ -5,8 +5,8 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force_search, only: find_brief_forces
-    use lagrangia_dop853_control, only: first_step, least_error, next_step
+    use lagrangia_brief_force_search, only: find_brief_forces, find_place_functions
+    use lagrangia_dop853_control, only: first_step, least_error, next_step, twice_too_long
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
@@ -103,6 +103,7 @@ contains
         if (refused) return
         call self%stand(t0, t_end)
         call find_brief_forces(system, t0, self%t_end, self%brief)
+        call find_place_functions(system, self%places)
         self%last_error = least_error
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
@@ -139,6 +140,13 @@ contains
             call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
             self%evaluations = self%evaluations + 11
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
+            if (self%places%count > 0 .and. scaled <= 1.0_dp) then
+                associate (n => system%ndof)
+                    if (self%places%stepped_over(self%t_old, self%y0(:n), self%y0(n + 1:), &
+                                                 self%t_old + h, self%y(:n), self%y(n + 1:))) &
+                        scaled = twice_too_long
+                end associate
+            end if
             call next_step(h, scaled, self%last_error, next)
             if (retry) next = min(next, self%h)
             if (cut .and. scaled <= 1.0_dp) next = max(next, self%h)

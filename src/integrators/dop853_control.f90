@@ -9,11 +9,12 @@ module lagrangia_dop853_control
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: first_step, least_error, next_step, next_steps
+    public :: first_step, least_error, next_step, next_steps, twice_too_long
 
     real(dp), parameter :: ln2 = log(2.0_dp)
     real(dp), parameter :: least_error = log(1e-4_dp)/ln2
     !! logarithm to base 2 of an error in tolerances: less counts as much
+    real(dp), parameter :: twice_too_long = 100.0_dp  !! an error, in tolerances, which says so
     real(dp), parameter :: safety = 0.9_dp
     real(dp), parameter :: shrink = 0.333_dp, grow = 6.0_dp  !! limits of one change of step
     real(dp), parameter :: beta = 0.04_dp                    !! share of the previous error

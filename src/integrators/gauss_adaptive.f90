@@ -8,7 +8,7 @@ module lagrangia_gauss_adaptive
     !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
     !!   second are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-    use lagrangia_brief_force_search, only: find_brief_forces
+    use lagrangia_brief_force_search, only: find_brief_forces, find_place_functions
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
@@ -127,6 +127,7 @@ contains
         self%evaluations = self%evaluations + 1
         call self%stand(t0, t_end)
         call find_brief_forces(system, t0, self%t_end, self%brief)
+        call find_place_functions(system, self%places)
         self%rate = best_rate
         speed = maxval(abs(v)/max(1.0_dp, abs(q))) &
                 + maxval(abs(self%s%start)/max(1.0_dp, abs(v)))
@@ -219,6 +220,10 @@ contains
                 self%evaluations = self%evaluations + 1
                 good = seen_whole(self%s%n, self%s%room(self%s%first, modes), self%weight, &
                                   self%s%start, self%s%end)
+                if (good .and. self%places%count > 0) then
+                    good = .not. self%places%stepped_over(self%t_new, self%s%q, self%s%v, to, &
+                                                          self%s%q_end, self%s%v_end)
+                end if
                 if (good) exit
                 ratio = 0.5_dp
             end if

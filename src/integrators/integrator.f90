@@ -7,6 +7,7 @@ module lagrangia_integrator
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: scientific
+    use lagrangia_place_functions, only: place_functions_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -54,10 +55,13 @@ module lagrangia_integrator
         real(dp) :: noise_margin = 16.0_dp  !! the least tolerance of use is rounding over this
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
         type(brief_forces_t) :: brief     !! nor goes over what acts for a moment: `start` says
+        type(place_functions_t) :: places !! nor over what acts in one place only
         integer(i8) :: most_steps = huge(1_i8)  !! after so many a run fails
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s; set by `start`
+        real(dp), private :: t_seen = 0.0_dp    !! where `refuse_more` last looked back, s
+        real(dp), private :: farthest = 0.0_dp  !! that it saw between two looks, s
         integer :: points_a_step = 8      !! between two of them the motion hardly turns
         logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
@@ -176,12 +180,18 @@ contains
     pure subroutine refuse_more(self, steps, t0, t_end, error)
         !! Fail (status 3) where there were more than `most_steps`, or where the first show that no
         !! computer will come to the end: `few` steps that went less than few/endless of the way.
-        class(dense_integrator_t), intent(in) :: self
+        !! Or where steps that were long have become so short that minutes are left: a friction
+        !! sgn(v) stops a body, and then changes its sign with every step.
+        class(dense_integrator_t), intent(inout) :: self
         integer(i8), intent(in) :: steps                    !! so far
         real(dp), intent(in) :: t0, t_end                   !! of the whole run, s
         type(error_t), allocatable, intent(inout) :: error  !! as it was, or status 3
         integer(i8), parameter :: few = 10000
         real(dp), parameter :: endless = 1e15_dp            ! steps: three years at 100 ns each
+        integer(i8), parameter :: many = 100000
+        real(dp), parameter :: minutes = 1e8_dp             ! steps
+        real(dp), parameter :: shorter = 1e-3_dp            ! than the longest
+        real(dp) :: gone
 
         if (allocated(error)) return
         if (steps > self%most_steps) then
@@ -192,6 +202,19 @@ contains
                       scientific(self%t_new, 2)//" s, more than 10^15 are needed to "// &
                       to_text(t_end)//" s: shorten the duration; very large forces need very "// &
                       "short steps", status_numbers)
+        else if (mod(steps, many) == 0_i8) then
+            gone = self%t_new - self%t_seen
+            if (steps == many) gone = self%t_new - t0
+            if (steps == many) self%farthest = gone
+            if (gone < shorter*self%farthest .and. &
+                gone*(minutes/many) < t_end - self%t_new) then
+                call fail(error, "steps have become "//scientific(self%farthest/gone, 2)// &
+                    " times shorter at t = "//to_text(self%t_new)//" s: a force that jumps "// &
+                    "there and back, as friction sgn(v) where it stops a body, needs a smooth "// &
+                    "form, tanh(v/v0)", status_numbers)
+            end if
+            self%farthest = max(self%farthest, gone)
+            self%t_seen = self%t_new
         end if
     end subroutine refuse_more
 

@@ -3,9 +3,25 @@ module lagrangia_hermite
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: quintic
+    public :: cubic, quintic
 
 contains
+
+    elemental subroutine cubic(s, h, x0, v0, x1, v1, x, v)
+        !! The polynomial of degree 3 at \(s = (t - t_0)/h\), and its derivative by \(t\); right to
+        !! \(O(h^4)\) and \(O(h^3)\).
+        real(dp), intent(in) :: s       !! from 0 to 1
+        real(dp), intent(in) :: h       !! length of the step
+        real(dp), intent(in) :: x0, v0  !! value and derivative at its start
+        real(dp), intent(in) :: x1, v1  !! and at its end
+        real(dp), intent(out) :: x, v   !! value and derivative
+        real(dp) :: bend, mean
+
+        mean = (x1 - x0)/h
+        bend = (v0 - mean) + (v1 - mean)
+        x = x0 + s*h*(v0 - s*(v0 - mean) - s*(1.0_dp - s)*bend)
+        v = v0 - 2.0_dp*s*(v0 - mean) - s*(2.0_dp - 3.0_dp*s)*bend
+    end subroutine cubic
 
     pure function quintic(h, x0, x1) result(c)
         !! The polynomial \(\sum_k c_k s^k\), \(s = (t - t_0)/h\), right to \(O(h^6)\).

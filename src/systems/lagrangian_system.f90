@@ -19,6 +19,7 @@ module lagrangia_lagrangian_system
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
     use lagrangia_number_class, only: all_finite, is_nonzero, is_zero
+    use lagrangia_place_functions, only: place_functions_t
     use lagrangia_system, only: check_parameters
     use lagrangia_time_functions, only: time_functions_t
     implicit none (type, external)
@@ -30,7 +31,8 @@ module lagrangia_lagrangian_system
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
         logical, allocatable :: cyclic_coordinates(:)  !! all that are cyclic with them, (ndof)
         logical :: told_by_formulas = .false.  !! what acts may act far away, for a moment
-        type(time_functions_t) :: time_functions  !! of its formulas, if it has any
+        type(time_functions_t) :: time_functions    !! of its formulas, if it has any
+        type(place_functions_t) :: place_functions  !! also of these
     contains
         procedure(outline_i), deferred :: outline
         procedure :: value

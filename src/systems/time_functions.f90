@@ -10,7 +10,7 @@ module lagrangia_time_functions
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: new_time_functions, time_functions_t
+    public :: falls_slowly, look_at, new_time_functions, time_functions_t
     public :: kink, peak, switch
 
     integer, parameter :: kink = 1    !! at a zero of the argument: abs, sgn
@@ -81,10 +81,10 @@ contains
 
     pure subroutine look_at(formula, k, argument, kind)
         !! What node `k` turns with; kind 0 where it does not.
-        type(expression_t), intent(in) :: formula
-        integer, intent(in) :: k
-        type(expression_t), intent(out) :: argument
-        integer, intent(out) :: kind
+        type(expression_t), intent(in) :: formula    !! any
+        integer, intent(in) :: k                     !! number of one of its nodes
+        type(expression_t), intent(out) :: argument  !! what the node is a function of
+        integer, intent(out) :: kind                 !! `kink`, `switch`, `peak` or 0
 
         kind = 0
         associate (node => formula%nodes(k))
@@ -113,6 +113,18 @@ contains
             end select
         end associate
     end subroutine look_at
+
+    pure function falls_slowly(formula, k) result(yes)
+        !! Is node `k`, a peak, a power of what it divides by, which never is as good as nothing?
+        type(expression_t), intent(in) :: formula  !! any
+        integer, intent(in) :: k                   !! number of one of its nodes
+        logical :: yes
+
+        associate (node => formula%nodes(k))
+            yes = node%kind == kind_quotient
+            if (node%kind == kind_power) yes = formula%nodes(node%right)%kind == kind_number
+        end associate
+    end function falls_slowly
 
     pure subroutine arguments_at(self, t, values, slopes)
         !! The arguments at a time, and their rates of change.

@@ -9,6 +9,7 @@ module lagrangia_written_dependence
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_number_class, only: is_zero
+    use lagrangia_place_functions, only: new_place_functions
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_time_functions, only: new_time_functions
@@ -37,6 +38,9 @@ contains
         call new_time_functions(system%time_functions, expressions%lagrangian, expressions%forces, &
                                 expressions%constraints, [spread(0.0_dp, 1, 1 + 2*n), system%p], &
                                 1 + 2*n)
+        call new_place_functions(system%place_functions, expressions%lagrangian, &
+                                 expressions%forces, expressions%constraints, &
+                                 [spread(0.0_dp, 1, 1 + 2*n), system%p], n)
         power = whole(0)
         do i = 1, n
             q = short(expressions%forces(i), system%p, expressions%symbols)
