@@ -223,8 +223,6 @@ refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output
 "$program" show pendulum >"$work/over.nml"
 sed -i "s/&scene/\&scene output = 'overlay'/" "$work/over.nml"
 refuses 2 "the overlay script '$work/none/overlay.gp' and the data script" run "$work/over.nml" cart_pendulum --overlay --output "$work/none"
-sed -i "s/'overlay'/'overlay.svg'/" "$work/over.nml"
-refuses 2 "the overlay picture '$work/none/overlay.svg' and the data file" run "$work/over.nml" cart_pendulum --overlay --output "$work/none"
 check "compare, --overlay: what is refused leaves no file" [ ! -e "$work/none" ]
 run modes double_pendulum --quiet --output "$work/cmp"
 check "modes --output: the mechanism, two rods and two masses a side" eval '[ $status -eq 0 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 1" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 0" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(grep -c "^set title \"" "$work/cmp/double_pendulum_modes.gp")" -eq 2 ]'
