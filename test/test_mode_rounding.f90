@@ -35,6 +35,7 @@ contains
         call suite%addTest(TestMethod("usual_modes_keep_their_digits", &
                                       usual_modes_keep_their_digits, setUp=restart_random))
         call suite%addTest(TestMethod("near_critical_damping", near_critical_damping))
+        call suite%addTest(TestMethod("no_damping_takes_no_digit", no_damping_takes_no_digit))
         call suite%addTest(TestMethod("near_modes_have_unsure_shapes", &
                                       near_modes_have_unsure_shapes))
     end function mode_rounding_suite
@@ -178,6 +179,8 @@ contains
             call assertTrue(all(rounding%squares < 1e-13_dp*modes%omega2), message="double")
             call assertTrue(all(rounding%shapes < 1e-12_dp*maxval(modes%shapes)), &
                             message="its shapes")
+            call assertTrue(all(rounding%springs <= 4.0_dp*eps*abs(modes%stiffness)), &
+                            message="K, and nothing of its zeros")
         end do
     end subroutine usual_modes_keep_their_digits
 
@@ -215,6 +218,25 @@ contains
             end do
         end do
     end subroutine near_critical_damping
+
+    subroutine no_damping_takes_no_digit()
+        !! Of \(\omega = \sqrt{k/m}\), with k and m off by \(4\epsilon\) of themselves, as much is
+        !! unsure, of whatever unit.
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: distance(:), rounding(:)
+        real(dp) :: m(1, 1), k(1, 1), omega
+        integer :: power
+
+        do power = -20, 20
+            m = 1.3_dp
+            k = 0.7_dp*3.0_dp**power
+            omega = sqrt(k(1, 1)/m(1, 1))
+            call quadratic_eigenvalues(m, 0.0_dp*m, k, lambda, error, rounding, distance)
+            call assertFalse(allocated(error), message="no damping")
+            call assertEqual([4.0_dp, 4.0_dp]*eps*omega, distance, 1e-3_dp*eps*omega)
+        end do
+    end subroutine no_damping_takes_no_digit
 
     subroutine near_modes_have_unsure_shapes()
         !! Of an isotropic trap two modes are one to rounding, and no digit of their shapes is

@@ -89,6 +89,8 @@ contains
         call assertEqual("99999.50000000000", certain(99999.5_dp, 0.0_dp), "below it")
         call assertEqual("-1.0000000000E+005", number(-1e5_dp), "as wide as the longest")
         call assertEqual("0", trim(number(0.0_dp)), "zero")
+        call assertEqual(1, len(certain(0.0_dp, 1.0_dp)), "no blanks behind zero")
+        call assertEqual(17, len(certain(9.99e-4_dp, 0.0_dp)), "nor behind an exponent")
         call assertEqual("3.3333333333333331E-01", certain_scientific(1.0_dp/3.0_dp, 0.0_dp, 17), &
                          "all that a double has")
         call assertEqual("3.33E-01", certain_scientific(1.0_dp/3.0_dp, 0.0_dp, 3), "three")
