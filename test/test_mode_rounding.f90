@@ -36,6 +36,7 @@ contains
                                       usual_modes_keep_their_digits, setUp=restart_random))
         call suite%addTest(TestMethod("near_critical_damping", near_critical_damping))
         call suite%addTest(TestMethod("no_damping_takes_no_digit", no_damping_takes_no_digit))
+        call suite%addTest(TestMethod("a_zero_across_a_field", a_zero_across_a_field))
         call suite%addTest(TestMethod("near_modes_have_unsure_shapes", &
                                       near_modes_have_unsure_shapes))
     end function mode_rounding_suite
@@ -218,6 +219,29 @@ contains
             end do
         end do
     end subroutine near_critical_damping
+
+    subroutine a_zero_across_a_field()
+        !! \(m\ddot x = B\dot y - kx,\; m\ddot y = -B\dot x\): of the mode \((0, 1)/\sqrt m\) that
+        !! stays a square is not seen below \(16n\epsilon\) of k/m, the lesser of k/m and
+        !! \(k/m + B^2/m^2\).
+        type(scene_t) :: scene
+        type(modes_t) :: modes
+        type(mode_rounding_t) :: rounding
+        type(error_t), allocatable :: error
+        class(system_t), allocatable :: system
+        type(word_t) :: none(0)
+
+        call parse_scene("&scene system = 'field' q = 0, 0 dt = 0.01 duration = 1 / "// &
+            "&lagrangian coordinates = 'x', 'y' parameters = 'm', 'k', 'B' "// &
+            "L = 'm/2 (x_dot^2 + y_dot^2) + B y_dot x - k/2 x^2' / "// &
+            "&field m = 4, k = 3, B = 5 /", "field.nml", none, scene, system, error)
+        call assertFalse(allocated(error), message="scene")
+        call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
+        call assertFalse(allocated(error), message="modes")
+        call find_rounding(system, modes, rounding)
+        call assertEqual([0.0_dp, 2.3125_dp], modes%omega2, 1e-14_dp)
+        call assertEqual(32.0_dp*eps*0.75_dp, rounding%squares(1), eps)
+    end subroutine a_zero_across_a_field
 
     subroutine no_damping_takes_no_digit()
         !! Of \(\omega = \sqrt{k/m}\), with k and m off by \(4\epsilon\) of themselves, as much is
