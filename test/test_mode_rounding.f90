@@ -259,6 +259,10 @@ contains
             call quadratic_eigenvalues(m, 0.0_dp*m, k, lambda, error, rounding, distance)
             call assertFalse(allocated(error), message="no damping")
             call assertEqual([4.0_dp, 4.0_dp]*eps*omega, distance, 1e-3_dp*eps*omega)
+            ! without a spring it slides, and that it stays is sure
+            call quadratic_eigenvalues(m, omega*m, 0.0_dp*k, lambda, error, rounding, distance)
+            call assertFalse(allocated(error), message="no spring")
+            call assertEqual([8.0_dp, 0.0_dp]*eps*omega, distance, 1e-3_dp*eps*omega)
         end do
     end subroutine no_damping_takes_no_digit
 
