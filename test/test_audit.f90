@@ -6,11 +6,13 @@ module test_audit
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_audit_newton, only: say_reactions
+    use lagrangia_audit_structure, only: audit_flags
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_description, only: description_t, name_length
     use lagrangia_diagnosis, only: factor_text
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
@@ -400,9 +402,11 @@ contains
 
     subroutine forces_that_are_mostly_zero_act()
         !! At one time, at one place; or they are the same at all velocities but the smallest. Each
-        !! on one of two coordinates.
+        !! on one of two coordinates, whether formulas have told it or not.
         call judge("exp(-(15 t)^2)")
         call judge("exp(-(14 x)^2)")
+        call judge("exp(-(1000 x)^2)")
+        call judge("exp(-(1000 x_dot)^2 - (1000 (x - 0.6))^2 - (1000 (t - 5))^2)")
         call judge("-tanh(1000 x_dot)")
     contains
         subroutine judge(force)
@@ -422,6 +426,13 @@ contains
             call assertTrue(system%nonconservative, "it acts: "//force)
             call audit_system(system, audit)
             call assertEqual(0, audit%broken(), message="claims that do not hold: "//force)
+            select type (system)
+            class is (lagrangian_system_t)
+                system%told_by_formulas = .false.
+            end select
+            call audit_flags(audit, system, 5.0_dp, [0.6_dp, -0.8_dp], [0.7_dp, 0.4_dp], 6.0_dp, &
+                             [-0.3_dp, 0.9_dp], .false.)
+            call assertEqual(0, audit%broken(), message="claims that nobody told: "//force)
         end subroutine judge
     end subroutine forces_that_are_mostly_zero_act
 end module test_audit

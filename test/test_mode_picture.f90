@@ -166,7 +166,7 @@ contains
         real(dp), allocatable :: edges(:, :), masses(:, :), rows(:, :)
         real(dp) :: wall(-1:1)
         character(:), allocatable :: script
-        integer :: side
+        integer :: k, side
 
         call draw("cart_pendulum", [0.0_dp, 0.0_dp], rows, script)
         if (anyExceptions()) return
@@ -194,6 +194,12 @@ contains
             if (size(edges, 2) < 18) return
             wall(side) = edges(4, 1)
             call assertEqual(masses(4:6, 1), edges(4:6, 18) + edges(7:9, 18), 1e-14_dp, "its end")
+            associate (length => masses(4, 1) - wall(side), half => edges(8, 2))
+                call assertEqual(length*[0.1_dp, spread(0.05_dp, 1, 16), 0.1_dp], edges(7, :18), &
+                                 1e-14_dp, "eight turns between straight ends")
+                call assertEqual(half*[0, 1, (2*(-1)**k, k=1, 14), -1, 0], edges(8, :18), &
+                                 1e-14_dp, "each as wide")
+            end associate
         end do
         call assertEqual(wall(0), maxval(wall), 0.0_dp, "the wall stands")
         call assertEqual(wall(0), minval(wall), 0.0_dp, "and stands")

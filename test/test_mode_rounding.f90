@@ -35,6 +35,8 @@ contains
         call suite%addTest(TestMethod("usual_modes_keep_their_digits", &
                                       usual_modes_keep_their_digits, setUp=restart_random))
         call suite%addTest(TestMethod("near_critical_damping", near_critical_damping))
+        call suite%addTest(TestMethod("no_damping_takes_no_digit", no_damping_takes_no_digit))
+        call suite%addTest(TestMethod("a_zero_across_a_field", a_zero_across_a_field))
         call suite%addTest(TestMethod("near_modes_have_unsure_shapes", &
                                       near_modes_have_unsure_shapes))
     end function mode_rounding_suite
@@ -178,6 +180,8 @@ contains
             call assertTrue(all(rounding%squares < 1e-13_dp*modes%omega2), message="double")
             call assertTrue(all(rounding%shapes < 1e-12_dp*maxval(modes%shapes)), &
                             message="its shapes")
+            call assertTrue(all(rounding%springs <= 4.0_dp*eps*abs(modes%stiffness)), &
+                            message="K, and nothing of its zeros")
         end do
     end subroutine usual_modes_keep_their_digits
 
@@ -215,6 +219,52 @@ contains
             end do
         end do
     end subroutine near_critical_damping
+
+    subroutine a_zero_across_a_field()
+        !! \(m\ddot x = B\dot y - kx,\; m\ddot y = -B\dot x\): of the mode \((0, 1)/\sqrt m\) that
+        !! stays a square is not seen below \(16n\epsilon\) of k/m, the lesser of k/m and
+        !! \(k/m + B^2/m^2\).
+        type(scene_t) :: scene
+        type(modes_t) :: modes
+        type(mode_rounding_t) :: rounding
+        type(error_t), allocatable :: error
+        class(system_t), allocatable :: system
+        type(word_t) :: none(0)
+
+        call parse_scene("&scene system = 'field' q = 0, 0 dt = 0.01 duration = 1 / "// &
+            "&lagrangian coordinates = 'x', 'y' parameters = 'm', 'k', 'B' "// &
+            "L = 'm/2 (x_dot^2 + y_dot^2) + B y_dot x - k/2 x^2' / "// &
+            "&field m = 4, k = 3, B = 5 /", "field.nml", none, scene, system, error)
+        call assertFalse(allocated(error), message="scene")
+        call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
+        call assertFalse(allocated(error), message="modes")
+        call find_rounding(system, modes, rounding)
+        call assertEqual([0.0_dp, 2.3125_dp], modes%omega2, 1e-14_dp)
+        call assertEqual(32.0_dp*eps*0.75_dp, rounding%squares(1), eps)
+    end subroutine a_zero_across_a_field
+
+    subroutine no_damping_takes_no_digit()
+        !! Of \(\omega = \sqrt{k/m}\), with k and m off by \(4\epsilon\) of themselves, as much is
+        !! unsure, of whatever unit.
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: distance(:), rounding(:)
+        real(dp) :: m(1, 1), k(1, 1), omega
+        integer :: power
+
+        do power = -20, 20
+            m = 1.3_dp
+            k = 0.7_dp*3.0_dp**power
+            omega = sqrt(k(1, 1)/m(1, 1))
+            call quadratic_eigenvalues(m, 0.0_dp*m, k, lambda, error, rounding, distance)
+            call assertFalse(allocated(error), message="no damping")
+            call assertEqual([4.0_dp, 4.0_dp]*eps*omega, distance, 1e-3_dp*eps*omega)
+            ! without a spring it slides, and that it stays is sure
+            call quadratic_eigenvalues(m, omega*m, 0.0_dp*k, lambda, error, rounding, distance)
+            call assertFalse(allocated(error), message="no spring")
+            call assertEqual([8.0_dp, 0.0_dp]*eps*omega, distance, 1e-3_dp*eps*omega)
+        end do
+    end subroutine no_damping_takes_no_digit
 
     subroutine near_modes_have_unsure_shapes()
         !! Of an isotropic trap two modes are one to rounding, and no digit of their shapes is

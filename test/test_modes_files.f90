@@ -38,6 +38,8 @@ contains
         call suite%addTest(TestMethod("what_cannot_be_written_leaves_nothing", &
                                       what_cannot_be_written_leaves_nothing))
         call suite%addTest(TestMethod("differences_have_no_sign", differences_have_no_sign))
+        call suite%addTest(TestMethod("a_shape_is_as_large_as_its_mass_makes_it", &
+                                      a_shape_is_as_large_as_its_mass_makes_it))
     end function modes_files_suite
 
     subroutine differences_have_no_sign()
@@ -63,6 +65,39 @@ contains
         call assertEqual(40, modes, "modes")
         call assertTrue(remove_file(folder//"/out"), "what was printed")
     end subroutine differences_have_no_sign
+
+    subroutine a_shape_is_as_large_as_its_mass_makes_it()
+        !! \(u = m^{-1/2}\), 1e-10 of 1e20 kg: no rounding, for beside it there is nothing.
+        character(:), allocatable :: folder
+
+        folder = new_folder("modes")
+        call assertEqual(0, exit_status(print_heavy), message="printed")
+        call assertTrue(index(contents(folder//"/out"), newline//"  1.0000000000E-010"//newline) > &
+                        0, contents(folder//"/out"))
+        call assertTrue(remove_file(folder//"/out"), "what was printed")
+    end subroutine a_shape_is_as_large_as_its_mass_makes_it
+
+    function print_heavy() result(status)
+        !! To a file; 1 if it fails.
+        integer :: status
+        type(command_line_t) :: line
+        type(error_t), allocatable :: error
+        type(word_t) :: words(6)
+
+        status = 1
+        call send_stdout_to(new_folder("modes")//"/out")
+        words(1)%text = "modes"
+        words(2)%text = "oscillator"
+        words(3)%text = "--set"
+        words(4)%text = "oscillator%m=1e20"
+        words(5)%text = "--set"
+        words(6)%text = "oscillator%k=1e20"
+        call parse_words(words, options, line, error)
+        if (.not. allocated(error)) call modes_command(line, error)
+        if (allocated(error)) return
+        call flush_console()
+        status = 0
+    end function print_heavy
 
     function print_modes() result(status)
         !! To a file; 1 if it fails.

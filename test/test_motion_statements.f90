@@ -8,6 +8,8 @@ module test_motion_statements
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_samples, only: stable_somewhere
+    use lagrangia_sample_names, only: draws, samples_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_symbols, only: symbols_t
@@ -34,6 +36,7 @@ contains
         call suite%addTest(TestMethod("small_is_not_zero", small_is_not_zero))
         call suite%addTest(TestMethod("constants_have_converged", constants_have_converged))
         call suite%addTest(TestMethod("constants_at_some_states", constants_at_some_states))
+        call suite%addTest(TestMethod("where_it_can_swing", where_it_can_swing))
     end function motion_statements_suite
 
     subroutine motions()
@@ -269,4 +272,33 @@ contains
         call assertEqual(values(2:4, 1), values(2:4, 2), 1e-14_dp, "near")
         call assertTrue(all(ieee_is_nan(values([1, 5], 2))), "far")
     end subroutine constants_at_some_states
+
+    subroutine where_it_can_swing()
+        !! For some parameters about the place at or near zero, which of a hoop that turns too fast
+        !! is not the lowest point: that is the other place, and unstable.
+        call assertTrue(swings(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp), "free for all")
+        call assertTrue(swings(4.0_dp, 0.0_dp, 0.0_dp, 0.0_dp), "about zero")
+        call assertFalse(swings(-4.0_dp, 0.0_dp, 0.0_dp, 0.0_dp), "nowhere")
+        call assertTrue(swings(4.0_dp, -3.0_dp, 0.5_dp, 0.0_dp), "unstable elsewhere")
+        call assertFalse(swings(4.0_dp, -3.0_dp, 0.0_dp, 0.0_dp), "tilted")
+        call assertTrue(swings(4.0_dp, 3.0_dp, 0.0_dp, 0.0_dp), "stable at zero, too")
+        call assertTrue(swings(-4.0_dp, 0.0_dp, 0.0_dp, 1.0_dp), "for one draw")
+        call assertFalse(swings(4.0_dp, -3.0_dp, 0.0_dp, -1.0_dp), "for no draw")
+    contains
+        function swings(square, elsewhere, place, last) result(yes)
+            real(dp), intent(in) :: square, elsewhere  !! omega^2 of both places
+            real(dp), intent(in) :: place              !! the other one
+            real(dp), intent(in) :: last               !! if not 0, omega^2 of the last draw
+            logical :: yes
+            type(samples_t) :: samples
+
+            samples%ndof = 1
+            allocate (samples%omega2(draws, 2), samples%other_equilibrium(1, draws))
+            samples%omega2(:, 1) = square
+            samples%omega2(:, 2) = elsewhere
+            samples%other_equilibrium = place
+            if (abs(last) > 0.0_dp) samples%omega2(draws, 1) = last
+            yes = stable_somewhere(samples)
+        end function swings
+    end subroutine where_it_can_swing
 end module test_motion_statements

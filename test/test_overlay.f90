@@ -5,7 +5,8 @@ module test_overlay
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: new_series, panel_t, series_t
     use lagrangia_kinds, only: dp
-    use lagrangia_overlay, only: common_panels, compare_methods, compare_starts, run_name
+    use lagrangia_overlay, only: common_panels, compare_methods, compare_starts, overrides_for, &
+                                 run_name
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_value_range, only: range_of
@@ -31,6 +32,8 @@ contains
         suite = TestSuite("overlay")
         call suite%addTest(TestMethod("files_are_named_after_runs", files_are_named_after_runs))
         call suite%addTest(TestMethod("methods_are_compared_alike", methods_are_compared_alike))
+        call suite%addTest(TestMethod("what_is_set_is_for_whom_it_fits", &
+                                      what_is_set_is_for_whom_it_fits))
         call suite%addTest(TestMethod("starts_are_compared_alike", starts_are_compared_alike))
         call suite%addTest(TestMethod("common_columns_have_panels", common_columns_have_panels))
     end function overlay_suite
@@ -87,6 +90,54 @@ contains
         if (allocated(error)) call assertEqual(1, index(error%message, "unknown method 'rk5'"), &
                                                error%message)
     end subroutine methods_are_compared_alike
+
+    subroutine what_is_set_is_for_whom_it_fits()
+        !! Steps for rk4, a tolerance for dop853, and of both the tolerance for gauss16, each with
+        !! its own method; the rest for all, and for none what no method of them takes.
+        call set("rk4", "rk4 dop853", "scene%dt=0.1", "scene%dt=0.1 scene%method=rk4")
+        call set("rk4", "rk4 dop853", "scene%every=2", "scene%every=2 scene%method=rk4")
+        call set("rk4", "rk4 dop853", "scene%tolerance=1e-9", "")
+        call set("rk4", "rk4 verlet", "scene%tolerance=1e-9", "scene%tolerance=1e-9")
+        call set("rk4", "rk4 dop853", "scene%tolerance=1e-9 scene%dt=0.1 scene%q=1", &
+                 "scene%dt=0.1 scene%q=1 scene%method=rk4")
+        call set("dop853", "rk4 dop853", "scene%dt=0.1", "")
+        call set("dop853", "dop853", "scene%dt=0.1", "scene%dt=0.1")
+        call set("dop853", "rk4 dop853", "scene%dt=0.1 scene%tolerance=1e-9", &
+                 "scene%tolerance=1e-9 scene%method=dop853")
+        call set("gauss16", "gauss16", "scene%dt=0.1 scene%tolerance=1e-9", &
+                 "scene%tolerance=1e-9 scene%method=gauss16")
+        call set("gauss16", "gauss16", "scene%dt=0.1", "scene%dt=0.1 scene%method=gauss16")
+        call set("rk4", "rk4", "scene%method=verlet Scene%DT=0.1", "Scene%DT=0.1 scene%method=rk4")
+        call set("rk4", "rk4", "scene%method=verlet scene%q=1", "scene%method=verlet scene%q=1")
+    contains
+        subroutine set(method, methods, given, expected)
+            character(*), intent(in) :: method, methods, given, expected  !! words
+            type(word_t), allocatable :: overrides(:)
+            character(:), allocatable :: text
+            integer :: i
+
+            call overrides_for(words_of(given), words_of(methods), method, overrides)
+            text = ""
+            do i = 1, size(overrides)
+                text = text//" "//overrides(i)%text
+            end do
+            call assertEqual(expected, text(min(2, len(text) + 1):), method//": "//given)
+        end subroutine set
+
+        pure function words_of(text) result(words)
+            character(*), intent(in) :: text
+            type(word_t), allocatable :: words(:)
+            integer :: first, last
+
+            allocate (words(0))
+            first = 1
+            do while (first <= len(text))
+                last = first + index(text(first:)//" ", " ") - 2
+                words = [words, word_t(text(first:last))]
+                first = last + 2
+            end do
+        end function words_of
+    end subroutine what_is_set_is_for_whom_it_fits
 
     subroutine starts_are_compared_alike()
         !! Coordinates and their velocities, for phase portraits.

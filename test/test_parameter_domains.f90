@@ -38,6 +38,11 @@ contains
         call judge("e < 1;e <= 1;e < 7", "less than 1.0", [0.1_dp, 0.2_dp], [1.0_dp, 2.0_dp])
         call judge("e <= 1;e < 1", "less than 1.0", [0.1_dp, 0.2_dp], [1.0_dp, 2.0_dp])
         call judge("e >= 1;e > 1", "greater than 1.0", [1.1_dp, 2.0_dp], [1.0_dp, 0.0_dp])
+        ! a narrower bound is open or closed by itself
+        call judge("e > 0;e >= 1", "at least 1.0", [1.0_dp, 2.0_dp], [0.999_dp, 0.5_dp])
+        call judge("e < 1;e <= 0", "at most 0.0", [0.0_dp, -1.0_dp], [0.001_dp, 0.5_dp])
+        call judge("e >= 0;e >= 0", "at least 0.0", [0.0_dp, 1.0_dp], [-0.1_dp, -1.0_dp])
+        call judge("e <= 1;e <= 1", "at most 1.0", [1.0_dp, 0.0_dp], [1.1_dp, 2.0_dp])
     end subroutine bounds
 
     subroutine judge(texts, words, good, bad)

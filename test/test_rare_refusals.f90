@@ -94,7 +94,7 @@ contains
     end subroutine sums_and_indices_have_limits
 
     subroutine names_and_units_have_limits()
-        !! Those of a coordinate: a unit of 16 characters.
+        !! Those of a coordinate: a unit of 16 characters, 120 of what it is.
         character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
                                             "'r [m] length of the spring'"
 
@@ -104,6 +104,10 @@ contains
                  "brackets; "//syntax)
         call own("x [] place", "x_dot^2/2", "coordinates = 'x [] place': a unit of up to 16 "// &
                  "characters stands between brackets; "//syntax)
+        call own("x [m]   "//repeat("a", 120), "x_dot^2/2", "")
+        call own("x   "//repeat("a", 120), "x_dot^2/2", "")
+        call own("x [m] "//repeat("a", 121), "x_dot^2/2", "coordinates = 'x [m] "// &
+                 repeat("a", 33)//"...: more than 120 characters behind the name")
     end subroutine names_and_units_have_limits
 
     subroutine own(coordinate, lagrangian, expected)

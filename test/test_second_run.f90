@@ -1,9 +1,11 @@
 module test_second_run
-    !! The run at half the step, which estimates the error where no closed form is known.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
-                     assertLessThan, assertTrue
+    !! The run at half the step, which estimates the error where no closed form is known, and what
+    !! several runs leave open that end near a saddle.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
+    use lagrangia_final_state, only: final_state_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -13,9 +15,14 @@ module test_second_run
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_saddle, only: unresolved_growth
+    use lagrangia_scene, only: scene_t
     use lagrangia_second_run, only: distance, second_run_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use lagrangia_wedge, only: wedge_t
     use run_doubles, only: watcher_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: second_run_suite
@@ -37,6 +44,8 @@ contains
         call suite%addTest(TestMethod("rounding_that_both_runs_share_is_in_it", &
                                       rounding_that_both_runs_share_is_in_it))
         call suite%addTest(TestMethod("a_watcher_hears_all_its_runs", a_watcher_hears_all_its_runs))
+        call suite%addTest(TestMethod("a_saddle_that_runs_do_not_resolve", &
+                                      a_saddle_that_runs_do_not_resolve))
     end function second_run_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -228,4 +237,60 @@ contains
         end do
         call assertGreaterThan(worst, 8.0_dp, message="more than a few last digits")
     end subroutine rounding_that_both_runs_share_is_in_it
+
+    subroutine a_saddle_that_runs_do_not_resolve()
+        !! Of \(\ddot x = a^2x,\;\ddot y = \pm b^2y\) what leaves is \(ax + \dot x\), and \(by +
+        !! \dot y\) on a hill: open where the ends differ by more than a tenth of it. The fastest of
+        !! them counts, but a rate below a thousandth of the largest is none.
+        real(dp), parameter :: zero(4) = 0.0_dp
+        real(dp) :: sense
+        integer :: i
+
+        do i = 1, 2
+            sense = merge(1.0_dp, -1.0_dp, i == 1)
+            ! 2 x + x_dot = 1.25
+            call grows("2", "-9", sense*[0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                       [0.0624_dp, 9.0_dp, 0.0_dp, 9.0_dp], zero, 0.0_dp)
+            call grows("2", "-9", sense*[0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                       [0.0626_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 2.0_dp)
+            call grows("2", "-9", sense*[0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                       zero, [0.0_dp, 0.0_dp, -0.1249_dp, 0.0_dp], 0.0_dp)
+            call grows("2", "-9", sense*[0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                       zero, [0.0_dp, 0.0_dp, -0.1251_dp, 0.0_dp], 2.0_dp)
+            ! on a hill, x + x_dot = 1 and 3 y + y_dot = 2
+            call grows("1", "9", sense*[0.5_dp, 0.5_dp, 0.5_dp, 0.5_dp], &
+                       [0.11_dp, 0.06_dp, 0.0_dp, 0.0_dp], zero, 1.0_dp)
+            call grows("1", "9", sense*[0.5_dp, 0.5_dp, 0.5_dp, 0.5_dp], &
+                       [0.09_dp, 0.07_dp, 0.0_dp, 0.0_dp], zero, 3.0_dp)
+            call grows("1", "9", sense*[0.5_dp, 0.5_dp, 0.5_dp, 0.5_dp], &
+                       [0.11_dp, 0.0_dp, 0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp, 0.0_dp, 0.21_dp], &
+                       3.0_dp)
+        end do
+        call grows("0.0031", "-9", zero, [1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 0.0031_dp)
+        call grows("0.0029", "-9", zero, [1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 0.0_dp)
+    contains
+        subroutine grows(a, b2, y, second, third, expected)
+            character(*), intent(in) :: a, b2            !! the latter with its sign
+            real(dp), intent(in) :: y(4)                 !! the end of the first run
+            real(dp), intent(in) :: second(4), third(4)  !! how far the others end from it
+            real(dp), intent(in) :: expected
+            type(scene_t) :: scene
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(final_state_t) :: seen
+
+            call read_and_plan("&scene system = 'hill', q = 0, 0, duration = 1.0, dt = 0.1 / "// &
+                               "&lagrangian coordinates = 'x', 'y' L = 'x_dot^2/2 + y_dot^2/2 "// &
+                               "+ ("//a//")^2/2 x^2 + ("//b2//")/2 y^2' / &hill /", "a.nml", &
+                               [word_t ::], scene, system, error)
+            call assertFalse(allocated(error), "a good scene")
+            if (allocated(error)) return
+            seen%q = y(:2)
+            seen%v = y(3:)
+            seen%q_most = abs(seen%q)
+            seen%v_most = 4.0_dp*abs(seen%v)
+            call assertEqual(expected, unresolved_growth(system, seen, reshape( &
+                             [y, y + second, y + third], [4, 3])), 1e-8_dp, a//", "//b2)
+        end subroutine grows
+    end subroutine a_saddle_that_runs_do_not_resolve
 end module test_second_run

@@ -23,6 +23,8 @@ contains
         call suite%addTest(TestMethod("energies_with_another_constant", &
                                       energies_with_another_constant))
         call suite%addTest(TestMethod("orders_that_are_written", orders_that_are_written))
+        call suite%addTest(TestMethod("accelerations_of_two_coordinates", &
+                                      accelerations_of_two_coordinates))
         call suite%addTest(TestMethod("negligible_terms", negligible_terms))
     end function small_energies_suite
 
@@ -183,6 +185,20 @@ contains
             "; E = T + V = m/2 l^2 theta_dot^2 + m g l (1 - cos(theta))", &
             remarks="1 the sign of '-m g l (1 - cos(theta))'; 2 'm g (1 - cos(theta))' lacks")
     end subroutine energies_with_another_constant
+
+    subroutine accelerations_of_two_coordinates()
+        !! At rest \(\ddot x = m_2g\sin\theta\cos\theta/(m_1 + m_2\sin^2\theta)\) and
+        !! \(\ddot\theta = -(m_1 + m_2)g\sin\theta/(l(m_1 + m_2\sin^2\theta))\), to third order.
+        call traced("cart_pendulum", "rrwf", &
+            "small: x_ddot = m2 g/m1 (theta - (2/3 + m2/m1) theta^3)"// &
+            "; small: theta_ddot = -(m1 + m2) g/(m1 l) (theta - (1/6 + m2/m1) theta^3)"// &
+            "; small: x_ddot = m2 g/m1 (theta - (1/3 + m2/m1) theta^3)"// &
+            "; small: theta_ddot = -(m1 + m2) g/(m1 l) (theta - theta^3/6)", &
+            "3 terms of order 3 are written; 4 from line 4")
+        call traced("cart_pendulum", "w", &
+            "small: theta_ddot = -(m1 + m2) g/(m1 l) (theta - theta^3/6)", &
+            "1 terms of order 3 are written")
+    end subroutine accelerations_of_two_coordinates
 
     subroutine orders_that_are_written()
         !! An approximation holds to the order that it writes.

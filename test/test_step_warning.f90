@@ -1,8 +1,9 @@
 module test_step_warning
-    !! The warnings before a run: of one that blows up, and of dry friction.
+    !! The warnings before a run that blows up, or comes to rest by dry friction.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
+    use lagrangia_friction_warning, only: friction_warning
     use lagrangia_scene, only: scene_t
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
@@ -24,6 +25,8 @@ contains
         call suite%addTest(TestMethod("nothing_is_said_without_a_limit", &
                                       nothing_is_said_without_a_limit))
         call suite%addTest(friction_warning_suite())
+        call suite%addTest(TestMethod("dry_friction_is_named", dry_friction_is_named))
+        call suite%addTest(TestMethod("what_does_not_jump_is_not", what_does_not_jump_is_not))
     end function step_warning_suite
 
     function warning_of(system_name, steps, parameters) result(text)
@@ -106,4 +109,45 @@ contains
                                         "samples = 10, q = 1.0"))
         call assertEqual("", warning_of("atwood", "method = 'rk4', dt = 5.0, q = 1.0"))
     end subroutine nothing_is_said_without_a_limit
+
+    function jump_of(forces) result(text)
+        !! The function that the warning names, of x and y with these generalised forces.
+        character(*), intent(in) :: forces  !! as a scene has them
+        character(:), allocatable :: text
+        character(*), parameter :: rest = " jumps where the motion turns: a body that it "// &
+            "brings to rest is not held there, and steps become ever shorter; a smooth form is "// &
+            "'tanh(x_dot/v0)', as in 'lagrangia show dry_friction'"
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+
+        call read_and_plan("&scene system = 'two', q = 0.1, 0.1, duration = 1.0, dt = 0.1 / "// &
+                           "&lagrangian coordinates = 'x', 'y' L = 'x_dot^2/2 + y_dot^2/2' "// &
+                           forces//" / &two /", "a.nml", [word_t ::], scene, system, error)
+        call assertFalse(allocated(error), forces)
+        text = "not read"
+        if (allocated(error)) return
+        text = friction_warning(system)
+        if (text == "") return
+        call assertEqual(rest, text(index(text, " jumps"):), forces)
+        text = text(:index(text, " jumps") - 1)
+    end function jump_of
+
+    subroutine dry_friction_is_named()
+        !! The first jump in a velocity, with all that is in its brackets, of either coordinate.
+        call assertEqual("'sgn(x_dot)'", jump_of("Q_x = '-2 sgn(x_dot)'"))
+        call assertEqual("'sgn(y_dot)'", &
+                         jump_of("Q_x = '-x_dot', Q_y = 'y - sgn(y_dot) - sgn(x_dot)'"))
+        call assertEqual("'sgn(x_dot)'", jump_of("Q_x = 'sgn(x) - sgn(y) - sgn(x_dot) - x'"))
+        call assertEqual("'sgn(2 (x_dot - sin(y)))'", jump_of("Q_x = '-sgn(2 (x_dot - sin(y))) x'"))
+        call assertEqual("'sgn(x_dot)'", &
+                         jump_of("Q_x = 'sgn(x)*y_dot - sgn(x_dot)', Q_y = '-sgn(y_dot)'"))
+    end subroutine dry_friction_is_named
+
+    subroutine what_does_not_jump_is_not()
+        !! A smooth form, a jump at a place, and no force at all.
+        call assertEqual("", jump_of("Q_x = '-tanh(x_dot/0.1)', Q_y = '-y_dot'"))
+        call assertEqual("", jump_of("Q_x = '-sgn(x)*x_dot', Q_y = '-sgn(y - x)'"))
+        call assertEqual("", jump_of(""))
+    end subroutine what_does_not_jump_is_not
 end module test_step_warning

@@ -107,6 +107,13 @@ contains
         call new_spoiled(spoiled, "rk4", damping=0.5_dp)
         call stress_edges(spoiled, verdicts)
         call assertFalse(verdicts%rows(13)%holds .or. verdicts%rows(14)%holds, "overflow")
+        ! 2^29 last digits, to either side
+        call new_spoiled(spoiled, "rk4", push=2.0_dp**(-1045))
+        call stress_edges(spoiled, verdicts)
+        call new_spoiled(spoiled, "rk4", push=-2.0_dp**(-1045))
+        call stress_edges(spoiled, verdicts)
+        call assertTrue(verdicts%rows(16)%holds .and. verdicts%rows(21)%holds, "no share of 1")
+        call assertFalse(verdicts%rows(17)%holds .or. verdicts%rows(22)%holds, "of a denormal")
     end subroutine edges_of_numbers_are_seen
 
     subroutine verdicts_hold_within_bounds()

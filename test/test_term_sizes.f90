@@ -1,11 +1,13 @@
 module test_term_sizes
-    !! What rounding may do to a formula is not less than its terms, whatever their signs.
+    !! What rounding may do to a formula is not less than its terms, whatever their signs; and which
+    !! term a difference is.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
+    use lagrangia_term_fit, only: best_term
     use lagrangia_term_sizes, only: motion_t, nearby_t, neighbours, new_nearby, size_of_solution, &
                                     solve_motion, term_size
     implicit none (type, external)
@@ -25,6 +27,7 @@ contains
         call suite%addTest(TestMethod("equations_are_as_large_as_their_terms", &
                                       equations_are_as_large_as_their_terms))
         call suite%addTest(TestMethod("sizes_have_no_sign", sizes_have_no_sign))
+        call suite%addTest(TestMethod("the_nearest_term_is_found", the_nearest_term_is_found))
     end function term_sizes_suite
 
     subroutine terms_that_cancel_are_seen()
@@ -40,6 +43,41 @@ contains
         values = -1.0_dp
         call assertEqual(1.0_dp, term_size(values), 1e-15_dp, "of a constant")
     end subroutine terms_that_cancel_are_seen
+
+    subroutine the_nearest_term_is_found()
+        !! Of the difference \((3, 4)\) four fifths are left beside \((1, 0)\), three beside
+        !! \((0, 1)\), none beside \((-6, -8)\), whatever its unit. Of two terms that are equal the
+        !! first one counts, of none that is not 0 none.
+        real(dp), parameter :: difference(2) = [3.0_dp, 4.0_dp]
+        real(dp), parameter :: terms(2, 4) = reshape([0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, &
+                                                      1.0_dp, -6.0_dp, -8.0_dp], [2, 4])
+        real(dp), parameter :: units(3) = [1e-9_dp, 1.0_dp, 1e9_dp]
+        integer :: i
+
+        do i = 1, size(units)
+            call fits(units(i), [1, 2], 2, 3.0_dp, 0.8_dp)
+            call fits(units(i), [1, 3, 1], 2, 4.0_dp, 0.6_dp)
+            call fits(units(i), [2, 4, 1, 4], 2, -0.5_dp, 0.0_dp)
+            call fits(units(i), [2, 3], 1, 3.0_dp, 0.8_dp)
+            call fits(units(i), [3, 3, 2], 1, 4.0_dp, 0.6_dp)
+            call fits(units(i), [1, 1], 0, 0.0_dp, 1.0_dp)
+        end do
+        call fits(0.0_dp, [2, 3], 0, 0.0_dp, 1.0_dp)
+    contains
+        subroutine fits(unit, columns, expected, factor, misfit)
+            real(dp), intent(in) :: unit  !! of the difference
+            integer, intent(in) :: columns(:), expected
+            real(dp), intent(in) :: factor, misfit
+            real(dp) :: share, left
+            integer :: which
+
+            call best_term(unit*difference, terms(:, columns), which, share, left)
+            call assertEqual(expected, which, "which")
+            call assertEqual(factor*merge(unit, 1.0_dp, unit > 0.0_dp), share, &
+                             4.0_dp*epsilon(unit)*abs(factor)*max(unit, 1.0_dp), "its factor")
+            call assertEqual(misfit, left, 4.0_dp*epsilon(unit), "what is left")
+        end subroutine fits
+    end subroutine the_nearest_term_is_found
 
     subroutine solutions_spread_what_rows_have()
         !! \(|K^{-1}|w\), by hand for a matrix of both signs; 1e4 epsilon of the largest are added.

@@ -108,6 +108,9 @@ contains
 
     subroutine string_tensions()
         call says("atwood", "m1 g - T = m1 x_ddot", is_right, "")
+        ! beside an energy T is one
+        call says("atwood", "T + V = m1 (g - x_ddot) - (m1 - m2) g x", is_wrong, &
+                  "two changes: 'T' does not belong there; 'm1 (g - x_ddot)' does not belong there")
         call says("atwood", "m1 g + T = m1 x_ddot", is_wrong, "the sign of 'tension1'")
         call says("atwood", "T = 2 m1 m2 g/(m1 + m2)", is_right, "")
         call says("atwood", "T = m1 m2 g/(m1 + m2)", is_wrong, &

@@ -4,7 +4,7 @@ module test_written_quantities
     use lagrangia_audit, only: audit_system
     use lagrangia_columns, only: column_names, columns_t, new_columns
     use lagrangia_command_line, only: word_t
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t, formula_length, name_length
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
@@ -37,6 +37,7 @@ contains
         call suite%addTest(TestMethod("what is conserved is found", conserved_is_found))
         call suite%addTest(TestMethod("what acts in one place is found", places_are_found))
         call suite%addTest(TestMethod("constraints are kept", constraints_are_kept))
+        call suite%addTest(TestMethod("the longest equations", longest_equations))
         call suite%addTest(TestMethod("a drift has a size", drift_has_a_size))
         call suite%addTest(TestMethod("magnitudes of terms", magnitudes))
         call suite%addTest(TestMethod("the audit knows them", audited))
@@ -354,4 +355,43 @@ contains
             "expect_r_drift = 1: R of this own is not "// &
                                                "conserved", error%message)
     end subroutine refusals
+
+    subroutine longest_equations()
+        !! With a multiplier they are printed up to `formula_length`, whole, or not at all.
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(word_t) :: none(0)
+        character(:), allocatable :: equation, last
+        integer :: extra
+
+        do extra = -2, 2
+            last = repeat("f", 11 + extra)
+            equation = "x_ddot + "//joined(" + ")//" = lambda1"
+            call assertEqual(formula_length + extra, len(equation), "as long as it should be")
+            call parse_scene("&scene system='own' dt=0.1 duration=1 q=0,0 /"//nl//"&lagrangian "// &
+                             "coordinates = 'x', 'y' parameters = '"//joined("', '")//"' L = "// &
+                             "'x_dot^2/2 + y_dot^2/2 - ("//joined(" + ")//") x' constraint = "// &
+                             "'x = y' /"//nl//"&own "//joined(" = 1, ")//" = 1 /", "a.nml", none, &
+                             scene, system, error)
+            call assertFalse(allocated(error), "a good scene")
+            if (allocated(error)) return
+            call system%describe(d)
+            call assertEqual(merge(2, 0, extra <= 0), size(d%equations), "printed or not")
+            if (size(d%equations) > 0) call assertEqual(equation, trim(d%equations(1)), "whole")
+        end do
+    contains
+        function joined(mark) result(text)
+            character(*), intent(in) :: mark
+            character(:), allocatable :: text
+            integer :: i
+
+            text = ""
+            do i = iachar("a"), iachar("e")
+                text = text//repeat(achar(i), 31)//mark
+            end do
+            text = text//last
+        end function joined
+    end subroutine longest_equations
 end module test_written_quantities
