@@ -30,6 +30,7 @@ contains
         call suite%addTest(TestMethod("lingering_at_a_saddle", lingering_at_a_saddle))
         call suite%addTest(TestMethod("steps_too_small_to_move", steps_too_small_to_move))
         call suite%addTest(TestMethod("a_late_clock", a_late_clock))
+        call suite%addTest(TestMethod("thin_walls", thin_walls))
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
         call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
         call suite%addTest(TestMethod("the_tolerance_that_is_named", the_tolerance_that_is_named))
@@ -174,6 +175,46 @@ contains
                      outcome)
         call check_claim(outcome%state(1), -4.15880072792298750e-2_dp)
     end subroutine a_late_clock
+
+    subroutine thin_walls()
+        !! Three runs by steps of `dt` go through a wall that is thinner than these. The other
+        !! method takes too long for its least tolerance there, but a larger one shows it. The
+        !! truths by a program for quadruple precision.
+        type(outcome_t) :: outcome
+
+        call fly("method='midpoint', dt=0.04683825712897181, every=10, t0=0.0, "// &
+                 "duration=4.683825712897181, q=-0.665290822223365, "// &
+                 "v=1.1912365131686262 / &wall k=2.1515563376144367, "// &
+                 "c=3.4189866896483863, w=1.5331585170051832e-05 /", &
+                 outcome)
+        call check_claim(outcome%state(1), 1.92370534378386871_dp)
+        call check_claim(outcome%state(2), -1.19123651316862623_dp)
+        call fly("method='gauss16', dt=0.0630500219450674, every=100, t0=0.0, "// &
+                 "duration=6.30500219450674, q=-0.8414250528170298, "// &
+                 "v=2.078562630819623 / &wall k=1.2737874430963456, "// &
+                 "c=4.763013816707627, w=1.4296489442301077e-05 /", &
+                 outcome)
+        call check_claim(outcome%state(1), 12.2639053310792229_dp)
+        call fly("method='gauss16', tolerance=1.19e-06, samples=10, "// &
+                 "t0=737.1132609808698, duration=5.240407297748967, "// &
+                 "q=-0.5676824657977552, "// &
+                 "v=1.0868784147027635 / &wall k=0.3160324404212109, "// &
+                 "c=5.606184982205924, w=0.0002628477226321737 /", &
+                 outcome)
+        call check_claim(outcome%state(1), 5.12800311037643477_dp)
+    contains
+        subroutine fly(numbers, outcome)
+            !! Towards the wall at x = c.
+            character(*), intent(in) :: numbers  !! of the scene, and of the wall
+            type(outcome_t), intent(out) :: outcome
+            integer :: i
+
+            i = index(numbers, " / ")
+            call perform("system = 'wall', "//numbers(:i)//"/ &lagrangian coordinates = 'x', "// &
+                         "parameters = 'k', 'c', 'w', T = 'x_dot^2/2', "// &
+                         "V = 'k exp(-((x - c)/w)^2)'"//numbers(i:), outcome)
+        end subroutine fly
+    end subroutine thin_walls
 
     subroutine the_time_of_a_slow_event()
         !! From 2**20 rad at 2**-10 rad/s one turns by 2**-10 rad in 1 s: the last digit of the

@@ -14,7 +14,7 @@ module lagrangia_accuracy
     !! that distance and the latest change.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
-    use lagrangia_cross_check, only: by_closed_form, by_other_method
+    use lagrangia_cross_check, only: by_closed_form, by_other_method, lost_by_clock
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -118,6 +118,8 @@ contains
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, shrinking, &
                                            scene%tolerance > 0.0_dp) + rounding
+        if (scene%tolerance > 0.0_dp) state%error = max(state%error, rounding + &
+                                                        rounding_of_end(scene, system, seen))
         if (lingers(system, seen, rests) .and. &
             maxval(state%error/max(most, tiny(most))) > amplified) state%error = linger*state%error
         if (lingers(system, seen, slows)) then
@@ -170,6 +172,18 @@ contains
         call system%accelerations(seen%t, seen%q, seen%v, a)
         lost(2:) = sqrt(real(seen%events, dp))*epsilon(lost)*t_most*abs([seen%v_most, a])
     end function rounding_of_clock
+
+    pure function rounding_of_end(scene, system, seen) result(lost)
+        !! Of the state, where the last step ends at the start plus the duration on the clock.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(final_state_t), intent(in) :: seen
+        real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
+
+        call system%accelerations(seen%t, seen%q, seen%v, a)
+        lost(1) = 0.0_dp
+        lost(2:) = abs(lost_by_clock(scene%t0, scene%duration)*[seen%v, a])
+    end function rounding_of_end
 
     pure subroutine name_state(system, state)
         !! Time, coordinates, velocities.

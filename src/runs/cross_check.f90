@@ -20,7 +20,7 @@ module lagrangia_cross_check
     use lagrangia_tolerance_floor, only: sensible_tolerance
     implicit none (type, external)
     private
-    public :: by_closed_form, by_other_method, new_other_method
+    public :: by_closed_form, by_other_method, lost_by_clock, new_other_method
 
     real(dp), parameter :: looks = 512.0_dp  !! steps of the other method at least
     real(dp), parameter :: looser = 1e-12_dp     !! tolerance, where the least one takes too long
