@@ -241,6 +241,8 @@ contains
         call find_rounding(system, modes, rounding)
         call assertEqual([0.0_dp, 2.3125_dp], modes%omega2, 1e-14_dp)
         call assertEqual(32.0_dp*eps*0.75_dp, rounding%squares(1), eps)
+        call assertEqual([0, 0], rounding%alike)
+        call assertLessThan(maxval(rounding%shapes), 1e-14_dp)
     end subroutine a_zero_across_a_field
 
     subroutine no_damping_takes_no_digit()

@@ -266,23 +266,38 @@ contains
                        [0.11_dp, 0.0_dp, 0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp, 0.0_dp, 0.21_dp], &
                        3.0_dp)
         end do
+        ! with drag, 3 x + x_dot = 1.75
+        call grows("sqrt(3)", "-9", [0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                   [0.0582_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 0.0_dp, "-2 x_dot")
+        call grows("sqrt(3)", "-9", [0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                   [0.0584_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 1.0_dp, "-2 x_dot")
+        call grows("sqrt(3)", "-9", [0.5_dp, 0.4_dp, 0.25_dp, 0.3_dp], &
+                   [0.0_dp, 0.0_dp, 0.176_dp, 0.0_dp], zero, 1.0_dp, "-2 x_dot")
+        ! a hill of a micrometre
+        call grows("0", "-9", [1e-9_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
+                   [1e-9_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, sqrt(cos(1e-3_dp)), &
+                   "1e-6 sin(1e6 x)")
         call grows("0.0031", "-9", zero, [1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 0.0031_dp)
         call grows("0.0029", "-9", zero, [1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], zero, 0.0_dp)
     contains
-        subroutine grows(a, b2, y, second, third, expected)
+        subroutine grows(a, b2, y, second, third, expected, force)
             character(*), intent(in) :: a, b2            !! the latter with its sign
             real(dp), intent(in) :: y(4)                 !! the end of the first run
             real(dp), intent(in) :: second(4), third(4)  !! how far the others end from it
             real(dp), intent(in) :: expected
+            character(*), intent(in), optional :: force  !! beside, on x
+            character(:), allocatable :: beside
             type(scene_t) :: scene
             class(system_t), allocatable :: system
             type(error_t), allocatable :: error
             type(final_state_t) :: seen
 
+            beside = ""
+            if (present(force)) beside = ", Q_x = '"//force//"'"
             call read_and_plan("&scene system = 'hill', q = 0, 0, duration = 1.0, dt = 0.1 / "// &
                                "&lagrangian coordinates = 'x', 'y' L = 'x_dot^2/2 + y_dot^2/2 "// &
-                               "+ ("//a//")^2/2 x^2 + ("//b2//")/2 y^2' / &hill /", "a.nml", &
-                               [word_t ::], scene, system, error)
+                               "+ ("//a//")^2/2 x^2 + ("//b2//")/2 y^2'"//beside//" / &hill /", &
+                               "a.nml", [word_t ::], scene, system, error)
             call assertFalse(allocated(error), "a good scene")
             if (allocated(error)) return
             seen%q = y(:2)
