@@ -180,12 +180,9 @@ contains
         call assertFalse(over(-1.7_dp, 2.0_dp, 1.0_dp), "one end is within")
         call assertFalse(over(-2.0_dp, 1.7_dp, 1.0_dp), "or the other")
         call assertFalse(over(2.0_dp, 5.0_dp, 1.0_dp), "behind it")
-        call assertTrue(functions%stepped_over(0.0_dp, [-3.0_dp], [9.0_dp], 1.0_dp, [-3.0_dp], &
-                                               [-9.0_dp]), "to -0.75 and back")
-        call assertFalse(functions%stepped_over(0.0_dp, [-3.0_dp], [1.6_dp], 1.0_dp, &
-                                                [-3.0_dp], [-1.6_dp]), "to -2.6 and back")
-        call assertTrue(functions%stepped_over(0.0_dp, [-3.0_dp], [19.0_dp], 1.0_dp, [3.5_dp], &
-                                               [-14.0_dp]), "to 4.3, and on the way back")
+        call assertTrue(turns(-3.0_dp, 9.0_dp, -3.0_dp, -9.0_dp), "to -0.75 and back")
+        call assertFalse(turns(-3.0_dp, 1.6_dp, -3.0_dp, -1.6_dp), "to -2.6 and back")
+        call assertTrue(turns(-3.0_dp, 19.0_dp, 3.5_dp, -14.0_dp), "to 5.4, and on the way back")
         call assertFalse(over(-1.1e14_dp, 1e14_dp, 1e14_dp), "what no time can resolve")
     contains
         function over(from, to, speed) result(yes)
@@ -193,9 +190,17 @@ contains
             real(dp), intent(in) :: from, to, speed
             logical :: yes
 
-            yes = functions%stepped_over(1.0_dp, [from], [speed], 1.0_dp + (to - from)/speed, &
-                                         [to], [speed])
+            call functions%try_step(1.0_dp, [from], [speed], 1.0_dp + (to - from)/speed, [to], &
+                                    [speed], yes)
         end function over
+
+        function turns(from, fast, to, slow) result(yes)
+            !! Within a second, with these speeds at both ends.
+            real(dp), intent(in) :: from, fast, to, slow
+            logical :: yes
+
+            call functions%try_step(0.0_dp, [from], [fast], 1.0_dp, [to], [slow], yes)
+        end function turns
     end subroutine steps_over
 
     subroutine cubic_between()

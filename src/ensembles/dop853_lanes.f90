@@ -162,19 +162,21 @@ contains
 
     pure subroutine refuse_steps_over(self, h, scaled)
         !! Attempts that go over a place where a function acts are to be about half as long.
-        class(dop853_lanes_t), intent(in) :: self
+        class(dop853_lanes_t), intent(inout) :: self
         real(dp), intent(in) :: h(lanes)
         real(dp), intent(inout) :: scaled(lanes)
         real(dp), dimension(size(self%y, 2)) :: y, y_old
         integer :: i, n
+        logical :: over
 
         n = size(self%y, 2)/2
         do i = 1, lanes
             if (self%places(i)%count == 0 .or. .not. (self%busy(i) .and. scaled(i) <= 1.0_dp)) cycle
             y_old = self%y(i, :)
             y = self%trial(i, :)
-            if (self%places(i)%stepped_over(self%t(i), y_old(:n), y_old(n + 1:), self%t(i) + h(i), &
-                                            y(:n), y(n + 1:))) scaled(i) = twice_too_long
+            call self%places(i)%try_step(self%t(i), y_old(:n), y_old(n + 1:), self%t(i) + h(i), &
+                                         y(:n), y(n + 1:), over)
+            if (over) scaled(i) = twice_too_long
         end do
     end subroutine refuse_steps_over
 

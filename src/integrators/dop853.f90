@@ -122,7 +122,7 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: h, next, scaled
-        logical :: cut, last, retry, refused
+        logical :: cut, last, over, retry, refused
 
         call self%refuse_system(system, refused, error=error)
         if (refused) return
@@ -140,12 +140,12 @@ contains
             call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
             self%evaluations = self%evaluations + 11
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
-            if (self%places%count > 0 .and. scaled <= 1.0_dp) then
+            if (scaled <= 1.0_dp) then
                 associate (n => system%ndof)
-                    if (self%places%stepped_over(self%t_old, self%y0(:n), self%y0(n + 1:), &
-                                                 self%t_old + h, self%y(:n), self%y(n + 1:))) &
-                        scaled = twice_too_long
+                    call self%places%try_step(self%t_old, self%y0(:n), self%y0(n + 1:), &
+                                              self%t_old + h, self%y(:n), self%y(n + 1:), over)
                 end associate
+                if (over) scaled = twice_too_long
             end if
             call next_step(h, scaled, self%last_error, next)
             if (retry) next = min(next, self%h)

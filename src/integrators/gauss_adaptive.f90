@@ -201,7 +201,7 @@ contains
         logical, intent(out) :: good
         real(dp) :: h, to, ratio, grow
         integer :: sweeps
-        logical :: cut
+        logical :: cut, over
 
         do
             to = next_time(self%t_new, min(self%h, self%longest, &
@@ -220,9 +220,10 @@ contains
                 self%evaluations = self%evaluations + 1
                 good = seen_whole(self%s%n, self%s%room(self%s%first, modes), self%weight, &
                                   self%s%start, self%s%end)
-                if (good .and. self%places%count > 0) then
-                    good = .not. self%places%stepped_over(self%t_new, self%s%q, self%s%v, to, &
-                                                          self%s%q_end, self%s%v_end)
+                if (good) then
+                    call self%places%try_step(self%t_new, self%s%q, self%s%v, to, &
+                                              self%s%q_end, self%s%v_end, over)
+                    good = .not. over
                 end if
                 if (good) exit
                 ratio = 0.5_dp

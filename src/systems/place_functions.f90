@@ -16,6 +16,8 @@ module lagrangia_place_functions
     real(dp), parameter :: faint = -45.0_dp  !! exp(faint) beside 1 is nothing
     real(dp), parameter :: changes = 2.0_dp  !! of an argument over a step, so that it is looked at
     integer, parameter :: looks = 8          !! parts of a step
+    integer, parameter :: rates = 1  !! program of the rates of change of all arguments by motion
+    integer, parameter :: both = 2   !! program of the arguments and these rates
     real(dp), parameter :: bent = 1.0_dp/32.0_dp  !! a quarter of what bends a path in its middle
 
     type :: path_t
@@ -32,10 +34,12 @@ module lagrangia_place_functions
         integer :: count = 0
         logical, allocatable, private :: switches(:)  !! about a zero of the argument, not a maximum
         real(dp), allocatable, private :: least(:)  !! argument at which a function may be seen
-        type(formula_program_t), allocatable, private :: arguments(:)
-        !! one program: all arguments, then their rates of change along the motion
+        type(formula_program_t), allocatable, private :: programs(:)  !! of `rates`, and of `both`
+        real(dp), private :: t_known = huge(1.0_dp)           !! end of the latest step, s
+        real(dp), allocatable, private :: rates_known(:)      !! at that end
     contains
-        procedure :: stepped_over
+        procedure :: try_step
+        procedure, private :: steps_over
         procedure, private :: climb
         procedure, private :: look
         procedure, private :: look_along
@@ -81,8 +85,10 @@ contains
         end do
         fixed = .true.
         fixed(:1 + 2*n) = .false.
-        allocate (self%arguments(1))
-        call new_formula_program(self%arguments(1), all, 1 + 2*n, fixed, values)
+        allocate (self%programs(both), self%rates_known(found))
+        self%rates_known = 0.0_dp
+        call new_formula_program(self%programs(rates), all(found + 1:), 1 + 2*n, fixed, values)
+        call new_formula_program(self%programs(both), all, 1 + 2*n, fixed, values)
     end subroutine new_place_functions
 
     pure subroutine look_through(formula, n, found, arguments, switches, least)
@@ -110,14 +116,39 @@ contains
         end do
     end subroutine look_through
 
-    pure function stepped_over(self, t_old, q_old, v_old, t, q, v) result(yes)
+    pure subroutine try_step(self, t_old, q_old, v_old, t, q, v, over)
+        !! Has a step gone over a place where a function acts? Arguments that hardly change over it
+        !! need no second look.
+        class(place_functions_t), intent(inout) :: self  !! knows the end of the step before
+        real(dp), intent(in) :: t_old, q_old(:), v_old(:)  !! s; the state at the start
+        real(dp), intent(in) :: t, q(:), v(:)              !! s; the state at the end
+        logical, intent(out) :: over  !! then it is to be a shorter one
+        real(dp), dimension(self%count) :: after, before
+        real(dp) :: state(1 + 2*size(q))
+
+        over = .false.
+        if (self%count == 0) return
+        if (abs(t_old - self%t_known) > 0.0_dp) then
+            state = [t_old, q_old, v_old]
+            call self%programs(rates)%evaluate(state, before)
+        else
+            before = self%rates_known
+        end if
+        state = [t, q, v]
+        call self%programs(rates)%evaluate(state, after)
+        self%t_known = t
+        self%rates_known = after
+        if (.not. any(max(abs(before), abs(after))*(t - t_old) > changes)) return
+        over = self%steps_over(t_old, q_old, v_old, t, q, v)
+    end subroutine try_step
+
+    pure function steps_over(self, t_old, q_old, v_old, t, q, v) result(yes)
         !! Has a function, between two ends of a step, a maximum beside which it is nearly nothing
         !! at both? Then the motion between them is no motion of the system. Between the ends it
         !! is taken to be a cubic; where one that is off by as much as it is bent may meet what
-        !! acts, that counts, too. Arguments that hardly change over a step need no second look.
+        !! acts, that counts, too.
         class(place_functions_t), intent(in) :: self
-        real(dp), intent(in) :: t_old, q_old(:), v_old(:)  !! s; the state at the start
-        real(dp), intent(in) :: t, q(:), v(:)              !! s; the state at the end
+        real(dp), intent(in) :: t_old, q_old(:), v_old(:), t, q(:), v(:)
         logical :: yes
         type(path_t) :: path
         real(dp), dimension(self%count, 0:looks + 4*size(q)) :: arguments, slopes
@@ -128,7 +159,6 @@ contains
         last = looks + 4*size(q)
         call self%look(t_old, q_old, v_old, arguments(:, 0), slopes(:, 0))
         call self%look(t, q, v, arguments(:, last), slopes(:, last))
-        if (.not. any(abs(slopes(:, [0, last]))*(t - t_old) > changes)) return
         path = path_t(t_old, t, q_old, v_old, q, v)
         call path%divide(times)
         do i = 1, last - 1
@@ -150,7 +180,7 @@ contains
                 if (yes) return
             end do
         end do
-    end function stepped_over
+    end function steps_over
 
     pure subroutine divide(self, times)
         !! Equal parts, and just before and behind the moments at which a velocity is 0, for a
@@ -242,7 +272,7 @@ contains
         real(dp), intent(out) :: arguments(self%count), slopes(self%count)
         real(dp) :: results(2*self%count)
 
-        call self%arguments(1)%evaluate([t, q, v], results)
+        call self%programs(both)%evaluate([t, q, v], results)
         arguments = results(:self%count)
         slopes = results(self%count + 1:)
         where (self%switches)
