@@ -16,6 +16,7 @@ module test_dense_run
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_text, only: to_text
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use run_doubles, only: watcher_t
     implicit none (type, external)
@@ -233,29 +234,38 @@ contains
     end subroutine endless_run
 
     subroutine shrunken_steps()
-        !! 10^5 steps went 6 s, and the next 10^5 only 10^-5 s: 10^10 would come to the end. Neither
-        !! steps that always were so short, nor some of them before the end, are refused.
-        call look(6.0_dp, 6.00001_dp, 10.0_dp, "6.0E+05 times shorter at t = 106.00001 s")
-        call look(6.0_dp, 6.00001_dp, 6.001_dp, "")
-        call look(6.0_dp, 6.01_dp, 1e6_dp, "")
-        call look(1e-5_dp, 2e-5_dp, 10.0_dp, "")
+        !! 10^5 steps went 6 s, and each next 10^5 only 10^-5 s: 10^10 would come to the end.
+        !! Neither steps that always were so short, nor some of them before the end, nor those of a
+        !! steep place that is left behind are refused.
+        call look(6.0_dp, 1e-5_dp, 10.0_dp, 9, "")
+        call look(6.0_dp, 1e-5_dp, 6.001_dp, 0, "")
+        call look(6.0_dp, 0.01_dp, 1e6_dp, 0, "")
+        call look(1e-5_dp, 1e-5_dp, 10.0_dp, 0, "")
+        call look(6.0_dp, 1e-5_dp, 10.0_dp, 0, "left behind")
     contains
-        subroutine look(first, second, t_end, told)
-            !! The times after 10^5 and 2 10^5 steps, since the start, which is at 100 s.
-            real(dp), intent(in) :: first, second, t_end
-            character(*), intent(in) :: told
+        subroutine look(first, next, t_end, at, place)
+            !! Looks after each 10^5 steps since the start, which is at 100 s.
+            real(dp), intent(in) :: first  !! the time that the first of them take, s
+            real(dp), intent(in) :: next   !! and the next, s
+            real(dp), intent(in) :: t_end  !! since the start, s
+            integer, intent(in) :: at      !! which look refuses; 0: none
+            character(*), intent(in) :: place  !! the eighth take 1 s, if there is one
             type(dop853_t) :: method
             type(error_t), allocatable :: error
             real(dp), parameter :: t0 = 100.0_dp
+            integer :: i
 
             call new_dop853(method)
             method%t_new = t0 + first
-            call method%refuse_more(100000_i8, t0, t0 + t_end, error)
-            call assertFalse(allocated(error), "the first steps")
-            method%t_new = t0 + second
-            call method%refuse_more(200000_i8, t0, t0 + t_end, error)
-            call assertTrue((told /= "") .eqv. allocated(error), "the next: "//told)
-            if (allocated(error)) call assertTrue(index(error%message, told) > 0, error%message)
+            do i = 1, 12
+                call method%refuse_more(i*100000_i8, t0, t0 + t_end, error)
+                call assertTrue(allocated(error) .eqv. i == at, "look "//to_text(i))
+                if (allocated(error)) exit
+                method%t_new = method%t_new + next
+                if (place /= "" .and. i == 7) method%t_new = method%t_new + 1.0_dp
+            end do
+            if (allocated(error)) call assertTrue(index(error%message, &
+                "steps have become 6.0E+05 times shorter at t = 106.00008") == 1, error%message)
         end subroutine look
     end subroutine shrunken_steps
 

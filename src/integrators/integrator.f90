@@ -62,6 +62,7 @@ module lagrangia_integrator
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s; set by `start`
         real(dp), private :: t_seen = 0.0_dp    !! where `refuse_more` last looked back, s
         real(dp), private :: farthest = 0.0_dp  !! that it saw between two looks, s
+        integer, private :: slow = 0            !! looks since it came so far
         integer :: points_a_step = 8      !! between two of them the motion hardly turns
         logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
@@ -191,6 +192,7 @@ contains
         integer(i8), parameter :: many = 100000
         real(dp), parameter :: minutes = 1e8_dp             ! steps
         real(dp), parameter :: shorter = 1e-3_dp            ! than the longest
+        integer, parameter :: lasting = 8                   ! looks at as many steps
         real(dp) :: gone
 
         if (allocated(error)) return
@@ -206,12 +208,14 @@ contains
             gone = self%t_new - self%t_seen
             if (steps == many) gone = self%t_new - t0
             if (steps == many) self%farthest = gone
-            if (gone < shorter*self%farthest .and. &
-                gone*(minutes/many) < t_end - self%t_new) then
+            self%slow = merge(self%slow + 1, 0, gone < shorter*self%farthest .and. &
+                              gone*(minutes/many) < t_end - self%t_new)
+            if (self%slow == lasting) then
                 call fail(error, "steps have become "//scientific(self%farthest/gone, 2)// &
-                    " times shorter at t = "//to_text(self%t_new)//" s: a force that jumps "// &
-                    "there and back, as friction sgn(v) where it stops a body, needs a smooth "// &
-                    "form, tanh(v/v0)", status_numbers)
+                    " times shorter at t = "//to_text(self%t_new)//" s: for a force that is so "// &
+                    "steep there the tolerance is too small; one that jumps there and back, as "// &
+                    "friction sgn(v) where it stops a body, needs a smooth form, tanh(v/v0)", &
+                    status_numbers)
             end if
             self%farthest = max(self%farthest, gone)
             self%t_seen = self%t_new
