@@ -442,6 +442,12 @@ check "a period stands beside 2 pi/omega" grep -q "^            1.6379465859 s  
 check "what no scene has stated is not explained" eval '! grep -q "give or take" "$work/out"'
 run run pendulum oscillator --error-estimate --output "$work/o"
 check "two scenes state their ends, and what brackets mean is said once" eval '[ "$(grep -c "^    at the end: " "$work/out")" -eq 2 ] && [ "$(grep -c "give or take" "$work/out")" -eq 1 ] && ! grep -q "^small:" "$work/out"'
+cat >"$work/thin.nml" <<'END'
+&scene system='wall', method='dop853', tolerance=6e-12, duration=6.3, samples=5, q=0.04, v=1.08 /
+&lagrangian coordinates='x [m]', T='x_dot^2/2', V='6 exp(-((x^2 - 1.09)/2.7e-7)^2)' /
+END
+run run "$work/thin.nml" --error-estimate --output "$work/o"
+check "run --error-estimate: walls so thin that their place is rounded leave some digits" eval '[ $status -eq 0 ] && grep -q "at the end: x = -0\.[0-9]*([0-9]) m, x_dot = -1\.0[0-9]*([0-9]) m/s" "$work/out"'
 run run cart_pendulum_small --json --set cart_pendulum%g=981 --output "$work/o"
 check "a period far below a second is beside 2 pi/omega" json '0 < d[0]["small_period_error"] < 1e-6'
 run run pendulum --json --set pendulum%g=981 --output "$work/o"

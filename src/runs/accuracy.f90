@@ -17,7 +17,7 @@ module lagrangia_accuracy
     use lagrangia_cross_check, only: by_closed_form, by_other_method, lost_by_clock
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_final_state, only: final_state_t
     use lagrangia_final_values, only: final_value_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -92,11 +92,13 @@ contains
         part%whole => progress
         part%from = share_of_run
         part%to = 3.0_dp*share_of_run
-        call run_finer(finer(1), system, 0.5_dp*step, part, half, shrinking, error)
+        call run_finer(finer(1), system, 0.5_dp*step, steps, &
+                       scene%tolerance, part, half, shrinking, error)
         part%from = part%to
         part%to = 7.0_dp*share_of_run
-        if (.not. allocated(error)) call run_finer(finer(2), system, 0.25_dp*step, part, &
-                                                   quarter, shrinking, error)
+        if (.not. allocated(error)) call run_finer(finer(2), system, 0.25_dp*step, steps, &
+                                                   scene%tolerance, part, quarter, shrinking, &
+                                                   error)
         if (allocated(error)) then
             call error%add_context(context)
             return
@@ -290,14 +292,19 @@ contains
         steps = 2.0_dp**k*(anint(scene%duration/scene%dt) + 1.0_dp) - 1.0_dp
     end function steps_of
 
-    subroutine run_finer(plan, system, longest, progress, seen, shrinking, error)
+    subroutine run_finer(plan, system, longest, steps, tolerance, progress, seen, shrinking, &
+                         error)
         !! From the start to the end, or to the event that ends it. A method that chooses its steps
-        !! may find no reason in the tolerance to shorten them: hence the bound.
+        !! may find no reason in the tolerance to shorten them: hence the bound. Where the tolerance
+        !! is less than rounding leaves, as in a wall so thin that its place is rounded, steps
+        !! become ever shorter: then more must do.
         type(trajectory_plan_t), intent(inout) :: plan
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: longest  !! step of a method that chooses them, s
+        real(dp), intent(in) :: longest    !! step of a method that chooses them, s
+        integer(i8), intent(in) :: steps   !! of the run itself
+        real(dp), intent(in) :: tolerance  !! of the run itself; 0: it has none
         class(observer_t), target, intent(inout) :: progress  !! hears how far it is
-        type(final_state_t), target, intent(inout) :: seen
+        type(final_state_t), target, intent(out) :: seen
         real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
         type(error_t), allocatable, intent(out) :: error
         type(observer_box_t) :: observers(2)
@@ -306,12 +313,26 @@ contains
         select type (method => plan%integrator)
         class is (dense_integrator_t)
             method%longest = longest
+            method%most_steps = 100*steps + 100000
         end select
         observers(1)%item => seen
         observers(2)%item => progress
-        call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, plan%v, &
-                   t, error)
         shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
         if (plan%times%samples == 0) shrinking = 2.0_dp**plan%integrator%order
+        do
+            call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, &
+                       plan%v, t, error)
+            if (.not. allocated(error)) return
+            if (error%status /= status_numbers) return
+            select type (method => plan%integrator)
+            class is (dense_integrator_t)
+                if (.not. 20.0_dp*method%tolerance < tolerance) return
+                method%tolerance = 10.0_dp*method%tolerance
+            class default
+                return
+            end select
+            seen = final_state_t()
+            shrinking = 2.0_dp
+        end do
     end subroutine run_finer
 end module lagrangia_accuracy
