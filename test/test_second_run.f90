@@ -316,9 +316,9 @@ contains
 
     subroutine what_has_grown_at_a_saddle()
         !! From the top of \(-200\,x^2\), which an error leaves by \(e^{20t}\), with drag by
-        !! \(e^{10t}\), in 1 s from 0.5 s on; beside it y goes from -3 m to -4 m with -1 m/s. Its error
-        !! is that of the energy, at the time when x was first away; two last digits of the start
-        !! until then; and two at least, from the start on where no energy tells.
+        !! \(e^{10t}\), in 1 s from 0.5 s on; beside it y goes from -3 m to -4 m with -1 m/s. Its
+        !! error is that of the energy, at the time when x was first away; two last digits of the
+        !! start until then; and two at least, from the start on where no energy tells.
         real(dp), parameter :: last = 2.0_dp*epsilon(last), slow(2) = [1.25_dp, 1.0_dp]
         real(dp), parameter :: terms = 1.5_dp  ! of the energy, v p - L: as much as both
         real(dp), parameter :: start = (3.0_dp + 1.0_dp/20.0_dp)/4.0_dp  ! beside the largest y
