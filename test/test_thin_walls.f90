@@ -284,7 +284,8 @@ contains
     subroutine turns_at_ends()
         !! Away from a place and back over it before the first look, by \(2 + s - 150 s^2\), which
         !! turns at s = 1/300 and is 0 at 0.119; and that backwards. Along either coordinate, the
-        !! other at rest or on a way of its own.
+        !! other at rest or on a way of its own. The velocity -360 (s - 1/10) (s - 299/300) turns
+        !! where nothing is, and once more behind the place, over which it comes back.
         type(place_functions_t) :: functions
         character(1), parameter :: names(2) = ["x", "y"]
         real(dp), dimension(2) :: q, q_old, v, v_old
@@ -309,6 +310,12 @@ contains
                 call assertTrue(functions%stepped_over(1.0_dp, q_old, 0.5_dp*v_old, 3.0_dp, q, &
                                                        0.5_dp*v), "in 2 s, "//names(i))
             end do
+            q_old(i) = -39.52_dp
+            v_old(i) = -35.88_dp
+            q(i) = 2.0_dp
+            v(i) = -1.08_dp
+            call assertTrue(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
+                            "at its second turn, "//names(i))
         end do
     end subroutine turns_at_ends
 
