@@ -36,6 +36,7 @@ contains
         call suite%addTest(TestMethod("what acts everywhere costs nothing", what_acts_everywhere))
         call suite%addTest(TestMethod("which steps go over what", steps_over))
         call suite%addTest(TestMethod("which steps need a second look", second_looks))
+        call suite%addTest(TestMethod("in which formulas they are", in_all_formulas))
         call suite%addTest(TestMethod("what a bent path may meet", bent_paths))
         call suite%addTest(TestMethod("what falls slowly", slow_falls))
         call suite%addTest(TestMethod("a turn right behind a start", turns_at_ends))
@@ -192,6 +193,7 @@ contains
         call assertTrue(functions%stepped_over(0.0_dp, [-3.0_dp], [19.0_dp], 1.0_dp, [3.5_dp], &
                                                [-14.0_dp]), "to 4.3, and on the way back")
         call assertFalse(over(-1.1e14_dp, 1e14_dp, 1e14_dp), "what no time can resolve")
+        call assertTrue(over(-2000.0_dp, 2500.0_dp, 0.0045_dp), "slowly, and from afar")
     contains
         function over(from, to, speed) result(yes)
             !! At this speed all the way.
@@ -211,9 +213,10 @@ contains
         type(error_t), allocatable :: error
         type(scene_t) :: scene
 
-        call parse_scene("&scene system = 'own' dt = 0.1 duration = 1 q = 0.0, 0.0 / "// &
+        call parse_scene("&scene system = 'own' dt = 0.1 duration = 1 q = 0.0, 1.0 / "// &
                          "&lagrangian coordinates = 'x', 'y' T = '(x_dot^2 + y_dot^2)/2' "// &
-                         "V = '"//potential//"' /", "own.nml", [word_t ::], scene, system, error)
+                         "V = '"//potential//"' parameters = 'c', 'w' / &own c = 90.0 w = 2.0 /", &
+                         "own.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), potential)
         if (.not. allocated(error)) call find_place_functions(system, functions)
     end subroutine find
@@ -225,7 +228,7 @@ contains
         real(dp), parameter :: slow(2) = [0.225_dp, 0.0_dp], fast(2) = [0.275_dp, 0.0_dp]
         integer :: i
 
-        call find("exp(-x^2) + exp(-(y - 90)^2)", functions)
+        call find("exp(-x^2) + exp(-((y - c)/w)^2)", functions)
         if (anyExceptions()) return
         call assertEqual(2, functions%count, "in two places")
         do i = -1, 1, 2
@@ -233,6 +236,12 @@ contains
             call assertTrue(over(fast, slow), "2.2 at the start")
             call assertTrue(over(slow, fast), "2.2 at the end")
         end do
+        call assertTrue(functions%stepped_over(0.0_dp, [0.0_dp, 82.0_dp], [0.0_dp, 14.0_dp], &
+                                               1.0_dp, [0.0_dp, 96.0_dp], [0.0_dp, 14.0_dp]), &
+                        "over 90 m, four widths before it and three behind")
+        call assertFalse(functions%stepped_over(0.0_dp, [0.0_dp, 82.0_dp], [0.0_dp, 11.0_dp], &
+                                                1.0_dp, [0.0_dp, 93.0_dp], [0.0_dp, 11.0_dp]), &
+                         "to one and a half behind it")
     contains
         function over(v_old, v) result(yes)
             !! From 2 m before the place to 2 m behind it, or back, in 2 s.
@@ -243,6 +252,21 @@ contains
                                          [2.0_dp*i, 0.0_dp], i*v)
         end function over
     end subroutine second_looks
+
+    subroutine in_all_formulas()
+        !! In forces and constraints as in the Lagrangian.
+        type(place_functions_t) :: functions
+
+        call find("x' Q_x = 'exp(-y^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(1, functions%count, "in a force")
+        call find("x' constraint = 'y = exp(-x^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(1, functions%count, "in a constraint")
+        call find("exp(-x^2)' Q_y = 'exp(-y^2)' constraint = 'y = 1/(1 + x^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(3, functions%count, "in all of them")
+    end subroutine in_all_formulas
 
     subroutine bent_paths()
         !! \(e^{-x^2}\) is nothing where \(x^2 > 45\). In 1 s from -20 m and back there with v,
@@ -264,6 +288,14 @@ contains
             call assertFalse(functions%stepped_over(0.0_dp, i*far, [i*21.0_dp, 0.0_dp], 2.0_dp, &
                                                     i*far, [-i*21.0_dp, 0.0_dp]), "nor in 2 s")
         end do
+        call find("exp(-x^2) + exp(-y^2)", functions)
+        if (anyExceptions()) return
+        call assertTrue(functions%stepped_over(0.0_dp, [-2.0_dp, -20.0_dp], [4.0_dp, 42.0_dp], &
+                                               1.0_dp, [2.0_dp, -20.0_dp], [4.0_dp, -42.0_dp]), &
+                        "over one of two")
+        call assertTrue(functions%stepped_over(0.0_dp, [-20.0_dp, -2.0_dp], [42.0_dp, 4.0_dp], &
+                                               1.0_dp, [-20.0_dp, 2.0_dp], [-42.0_dp, 4.0_dp]), &
+                        "over the other")
     end subroutine bent_paths
 
     subroutine slow_falls()
@@ -316,6 +348,8 @@ contains
             v(i) = -1.08_dp
             call assertTrue(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
                             "at its second turn, "//names(i))
+            call assertTrue(functions%stepped_over(0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
+                            "and backwards, "//names(i))
         end do
     end subroutine turns_at_ends
 
