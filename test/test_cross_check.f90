@@ -3,9 +3,11 @@ module test_cross_check
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_command_line, only: word_t
+    use lagrangia_cross_check, only: new_other_method
     use lagrangia_dop853, only: dop853_t
     use lagrangia_errors, only: error_t
     use lagrangia_final_values, only: final_value_t, final_values_line
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t
     use lagrangia_pendulum, only: pendulum_t
@@ -39,6 +41,7 @@ contains
         call suite%addTest(TestMethod("an_estimate_has_the_rounding_in_it", &
                                       an_estimate_has_the_rounding_in_it))
         call suite%addTest(TestMethod("an_error_is_of_coordinates", an_error_is_of_coordinates))
+        call suite%addTest(TestMethod("the_other_method_is_another", the_other_method_is_another))
     end function cross_check_suite
 
     subroutine perform(text, outcome, plain)
@@ -390,4 +393,30 @@ contains
         call assertEqual(x, outcome%error(), 1e-12_dp, "of x")
         call assertGreaterThan(abs(v - x), 0.1_dp*x, message="which is not that of the velocity")
     end subroutine an_error_is_of_coordinates
+
+    subroutine the_other_method_is_another()
+        !! `dop853` for all but a run by it.
+        character(8), parameter :: methods(3) = [character(8) :: "dop853", "gauss16", "rk4"]
+        class(dense_integrator_t), allocatable :: other
+        type(pendulum_t) :: pendulum
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+        integer :: i
+
+        call pendulum%configure([1.0_dp, 1.0_dp, 9.81_dp, 0.0_dp], error)
+        call assertFalse(allocated(error), "a pendulum")
+        scene%duration = 1.0_dp
+        scene%q = [1.0_dp]
+        scene%v = [0.0_dp]
+        do i = 1, size(methods)
+            scene%method = methods(i)
+            call new_other_method(scene, pendulum, other)
+            select type (other)
+            type is (dop853_t)
+                call assertTrue(i > 1, "dop853 beside "//methods(i))
+            class default
+                call assertTrue(i == 1, "another beside "//methods(i))
+            end select
+        end do
+    end subroutine the_other_method_is_another
 end module test_cross_check

@@ -3,18 +3,22 @@ module test_second_run
     !! several runs leave open that end near a saddle.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
+    use lagrangia_accuracy, only: state_accuracy
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_final_state, only: final_state_t
+    use lagrangia_final_values, only: final_value_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
+    use lagrangia_observer, only: observer_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_saddle, only: unresolved_growth
     use lagrangia_scene, only: scene_t
     use lagrangia_second_run, only: distance, second_run_t
@@ -46,6 +50,7 @@ contains
         call suite%addTest(TestMethod("a_watcher_hears_all_its_runs", a_watcher_hears_all_its_runs))
         call suite%addTest(TestMethod("a_saddle_that_runs_do_not_resolve", &
                                       a_saddle_that_runs_do_not_resolve))
+        call suite%addTest(TestMethod("what_has_grown_at_a_saddle", what_has_grown_at_a_saddle))
     end function second_run_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -308,4 +313,57 @@ contains
                              [y, y + second, y + third], [4, 3])), 1e-8_dp, a//", "//b2)
         end subroutine grows
     end subroutine a_saddle_that_runs_do_not_resolve
+
+    subroutine what_has_grown_at_a_saddle()
+        !! From the top of \(-200\,x^2\), which an error leaves by \(e^{20t}\), with drag by
+        !! \(e^{10t}\), in 1 s from 0.5 s on; beside it y goes from -3 m to -4 m with -1 m/s. Its
+        !! error is that of the energy, at the time when x was first away; two last digits of the
+        !! start until then; and two at least, from the start on where no energy tells.
+        real(dp), parameter :: last = 2.0_dp*epsilon(last), slow(2) = [1.25_dp, 1.0_dp]
+        real(dp), parameter :: terms = 1.5_dp  ! of the energy, v p - L: as much as both
+        real(dp), parameter :: start = (3.0_dp + 1.0_dp/20.0_dp)/4.0_dp  ! beside the largest y
+
+        call check("0.0, -3.0 v = 0.0, -1.0", "", -4.0_dp, -1.0_dp, &
+                   last*(exp(20.0_dp)*start + exp(10.0_dp)), "by the start")
+        call check("0.0, -3.0 v = 0.0, -1.0", "", -4.0_dp, -1.0_dp - 1e-5_dp, &
+                   1e-5_dp/terms*exp(10.0_dp), "by the energy")
+        call check("0.0, -3.0 v = 0.0, -1.0", "", -4.0_dp, -1.0_dp + 1e-5_dp, &
+                   1e-5_dp/terms*exp(10.0_dp), "by the energy, to the other side")
+        call check("0.0, -3.0 v = 0.0, -1.0", " Q_x = '-30 x_dot'", -4.0_dp, -1.0_dp, &
+                   last*exp(10.0_dp), "no energy")
+        call check("0.0, 0.0 v = 0.0, 0.0", "", 0.0_dp, 0.0_dp, last*exp(20.0_dp), "at rest")
+    contains
+        subroutine check(begin, drag, y, y_dot, share, about)
+            !! The error of y, beside 4 m, if the run is seen to end there.
+            character(*), intent(in) :: begin, drag, about
+            real(dp), intent(in) :: y, y_dot, share
+            class(observer_t), pointer :: nobody
+            class(reference_t), allocatable :: none
+            type(final_state_t) :: seen
+            type(final_value_t), allocatable :: state(:)
+            type(run_plan_t) :: plan
+            type(error_t), allocatable :: error
+
+            if (anyExceptions()) return
+            nobody => null()
+            call parse_run_plan(plan, "&scene system = 'top' method = 'gauss16' dt = 0.1 "// &
+                                "t0 = 0.5 duration = 1 columns = 't' error_estimate = .true. "// &
+                                "q = "//begin//" / &lagrangian coordinates = 'x', 'y' "// &
+                                "T = '(x_dot^2 + y_dot^2)/2' V = '-200 x^2'"//drag//" /", &
+                                "top.nml", [word_t ::], error)
+            call assertFalse(allocated(error), about)
+            if (anyExceptions()) return
+            seen%t = 1.5_dp
+            seen%t_slow = slow
+            seen%q = [1e-17_dp, y]
+            seen%v = [0.0_dp, y_dot]
+            seen%q_most = [1.0_dp, 4.0_dp]
+            seen%v_most = [1.0_dp, 10.0_dp]
+            call state_accuracy(plan%settled, plan%system, none, plan%finer, seen, 10_i8, nobody, &
+                                state, error)
+            call assertFalse(allocated(error), about)
+            if (anyExceptions()) return
+            call assertEqual(4.0_dp*share, state(2)%error, 1e-4_dp*share, about)
+        end subroutine check
+    end subroutine what_has_grown_at_a_saddle
 end module test_second_run

@@ -35,6 +35,11 @@ contains
         call suite%addTest(TestMethod("a wall in the lanes of a sweep", walls_in_sweeps))
         call suite%addTest(TestMethod("what acts everywhere costs nothing", what_acts_everywhere))
         call suite%addTest(TestMethod("which steps go over what", steps_over))
+        call suite%addTest(TestMethod("which steps need a second look", second_looks))
+        call suite%addTest(TestMethod("in which formulas they are", in_all_formulas))
+        call suite%addTest(TestMethod("what a bent path may meet", bent_paths))
+        call suite%addTest(TestMethod("what falls slowly", slow_falls))
+        call suite%addTest(TestMethod("a turn right behind a start", turns_at_ends))
         call suite%addTest(TestMethod("the cubic between two states", cubic_between))
     end function thin_walls_suite
 
@@ -69,6 +74,7 @@ contains
             call fly(methods(i), "3/(1 + ((x - 4)/0.0001)^2)", 2.0_dp, -2.0_dp, 1e-2_dp)
             call fly(methods(i), "3 (1 - tanh((x - 4)/0.0001)^2)", 2.0_dp, -2.0_dp, 1e-3_dp)
             call fly(methods(i), "3 (1 + (1000 x - 4000)^4)^(-2)", 2.0_dp, -2.0_dp, 1e-2_dp)
+            call fly(methods(i), "3 (-1 - (1000 x - 4000)^4)^(-2)", 2.0_dp, -2.0_dp, 1e-2_dp)
             call fly(methods(i), "-3 exp(-((x - 4)/0.0001)^2)", 6.0_dp, 2.0_dp, 1e-3_dp)
         end do
     end subroutine walls_throw_back
@@ -184,6 +190,7 @@ contains
         call assertFalse(turns(-3.0_dp, 1.6_dp, -3.0_dp, -1.6_dp), "to -2.6 and back")
         call assertTrue(turns(-3.0_dp, 19.0_dp, 3.5_dp, -14.0_dp), "to 5.4, and on the way back")
         call assertFalse(over(-1.1e14_dp, 1e14_dp, 1e14_dp), "what no time can resolve")
+        call assertTrue(over(-2000.0_dp, 2500.0_dp, 0.0045_dp), "slowly, and from afar")
     contains
         function over(from, to, speed) result(yes)
             !! At this speed all the way.
@@ -202,6 +209,154 @@ contains
             call functions%try_step(0.0_dp, [from], [fast], 1.0_dp, [to], [slow], yes)
         end function turns
     end subroutine steps_over
+
+    subroutine find(potential, functions)
+        !! Of a mass in a plane.
+        character(*), intent(in) :: potential
+        type(place_functions_t), intent(out) :: functions
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene
+
+        call parse_scene("&scene system = 'own' dt = 0.1 duration = 1 q = 0.0, 1.0 / "// &
+                         "&lagrangian coordinates = 'x', 'y' T = '(x_dot^2 + y_dot^2)/2' "// &
+                         "V = '"//potential//"' parameters = 'c', 'w' / &own c = 90.0 w = 2.0 /", &
+                         "own.nml", [word_t ::], scene, system, error)
+        call assertFalse(allocated(error), potential)
+        if (.not. allocated(error)) call find_place_functions(system, functions)
+    end subroutine find
+
+    subroutine second_looks()
+        !! \(-x^2\) at 2 m changes by 4 m times what the velocity there would cover in the step:
+        !! those by which it changes by more than 2, at either end, are looked at again.
+        type(place_functions_t) :: functions
+        real(dp), parameter :: slow(2) = [0.225_dp, 0.0_dp], fast(2) = [0.275_dp, 0.0_dp]
+        integer :: i
+
+        call find("exp(-x^2) + exp(-((y - c)/w)^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(2, functions%count, "in two places")
+        do i = -1, 1, 2
+            call assertFalse(over(slow, slow), "1.8 at both ends")
+            call assertTrue(over(fast, slow), "2.2 at the start")
+            call assertTrue(over(slow, fast), "2.2 at the end")
+        end do
+        call assertTrue(functions%stepped_over(0.0_dp, [0.0_dp, 82.0_dp], [0.0_dp, 14.0_dp], &
+                                               1.0_dp, [0.0_dp, 96.0_dp], [0.0_dp, 14.0_dp]), &
+                        "over 90 m, four widths before it and three behind")
+        call assertFalse(functions%stepped_over(0.0_dp, [0.0_dp, 82.0_dp], [0.0_dp, 11.0_dp], &
+                                                1.0_dp, [0.0_dp, 93.0_dp], [0.0_dp, 11.0_dp]), &
+                         "to one and a half behind it")
+    contains
+        function over(v_old, v) result(yes)
+            !! From 2 m before the place to 2 m behind it, or back, in 2 s.
+            real(dp), intent(in) :: v_old(2), v(2)
+            logical :: yes
+
+            yes = functions%stepped_over(1.0_dp, [-2.0_dp*i, 0.0_dp], i*v_old, 3.0_dp, &
+                                         [2.0_dp*i, 0.0_dp], i*v)
+        end function over
+    end subroutine second_looks
+
+    subroutine in_all_formulas()
+        !! In forces and constraints as in the Lagrangian.
+        type(place_functions_t) :: functions
+
+        call find("x' Q_x = 'exp(-y^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(1, functions%count, "in a force")
+        call find("x' constraint = 'y = exp(-x^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(1, functions%count, "in a constraint")
+        call find("exp(-x^2)' Q_y = 'exp(-y^2)' constraint = 'y = 1/(1 + x^2)", functions)
+        if (anyExceptions()) return
+        call assertEqual(3, functions%count, "in all of them")
+    end subroutine in_all_formulas
+
+    subroutine bent_paths()
+        !! \(e^{-x^2}\) is nothing where \(x^2 > 45\). In 1 s from -20 m and back there with v,
+        !! the path turns at -20 m + v/4; one that is bent by a quarter more, at -20 m + 5 v/16:
+        !! of 42 m/s at -6.875 m, of 43 m/s at -6.5625 m.
+        type(place_functions_t) :: functions
+        real(dp), parameter :: far(2) = [-20.0_dp, 0.0_dp]
+        integer :: i
+
+        call find("exp(-x^2)", functions)
+        if (anyExceptions()) return
+        do i = -1, 1, 2
+            call assertFalse(functions%stepped_over(0.0_dp, i*far, [i*42.0_dp, 0.0_dp], 1.0_dp, &
+                                                    i*far, [-i*42.0_dp, 0.0_dp]), "42 m/s")
+            call assertTrue(functions%stepped_over(0.0_dp, i*far, [i*43.0_dp, 0.0_dp], 1.0_dp, &
+                                                   i*far, [-i*43.0_dp, 0.0_dp]), "43 m/s")
+            call assertTrue(functions%stepped_over(0.0_dp, i*far, [i*21.5_dp, 0.0_dp], 2.0_dp, &
+                                                   i*far, [-i*21.5_dp, 0.0_dp]), "in 2 s")
+            call assertFalse(functions%stepped_over(0.0_dp, i*far, [i*21.0_dp, 0.0_dp], 2.0_dp, &
+                                                    i*far, [-i*21.0_dp, 0.0_dp]), "nor in 2 s")
+        end do
+        call find("exp(-x^2) + exp(-y^2)", functions)
+        if (anyExceptions()) return
+        call assertTrue(functions%stepped_over(0.0_dp, [-2.0_dp, -20.0_dp], [4.0_dp, 42.0_dp], &
+                                               1.0_dp, [2.0_dp, -20.0_dp], [4.0_dp, -42.0_dp]), &
+                        "over one of two")
+        call assertTrue(functions%stepped_over(0.0_dp, [-20.0_dp, -2.0_dp], [42.0_dp, 4.0_dp], &
+                                               1.0_dp, [-20.0_dp, 2.0_dp], [-42.0_dp, 4.0_dp]), &
+                        "over the other")
+    end subroutine bent_paths
+
+    subroutine slow_falls()
+        !! A power is never nothing: from \(-10^9\) m to \(-2.1\cdot10^8\) m and back it is more
+        !! than \(e^3\) times what it is at both ends, though \(10^{-33}\) of what it is at 0.
+        character(*), parameter :: powers(2) = [character(14) :: "1/(1 + x^2)", "(1 + x^2)^(-2)"]
+        type(place_functions_t) :: functions
+        real(dp), parameter :: far(2) = [-1e9_dp, 0.0_dp], v(2) = [3.16e9_dp, 0.0_dp]
+        integer :: i
+
+        do i = 1, size(powers)
+            call find(powers(i), functions)
+            if (anyExceptions()) return
+            call assertTrue(functions%stepped_over(0.0_dp, far, v, 1.0_dp, far, -v), powers(i))
+        end do
+    end subroutine slow_falls
+
+    subroutine turns_at_ends()
+        !! Away from a place and back over it before the first look, by \(2 + s - 150 s^2\), which
+        !! turns at s = 1/300 and is 0 at 0.119; and that backwards. Along either coordinate, the
+        !! other at rest or on a way of its own. The velocity -360 (s - 1/10) (s - 299/300) turns
+        !! where nothing is, and once more behind the place, over which it comes back.
+        type(place_functions_t) :: functions
+        character(1), parameter :: names(2) = ["x", "y"]
+        real(dp), dimension(2) :: q, q_old, v, v_old
+        integer :: i, k
+
+        do i = 1, 2
+            call find("exp(-"//names(i)//"^2)", functions)
+            if (anyExceptions()) return
+            do k = 0, 3
+                q_old = 3.0_dp
+                v_old = k
+                q = q_old + k
+                v = k - 6*k*(k - 1)*(3 - k)
+                q_old(i) = 2.0_dp
+                v_old(i) = 1.0_dp
+                q(i) = -147.0_dp
+                v(i) = -299.0_dp
+                call assertTrue(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
+                                "behind the start, "//names(i))
+                call assertTrue(functions%stepped_over(0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
+                                "before the end, "//names(i))
+                call assertTrue(functions%stepped_over(1.0_dp, q_old, 0.5_dp*v_old, 3.0_dp, q, &
+                                                       0.5_dp*v), "in 2 s, "//names(i))
+            end do
+            q_old(i) = -39.52_dp
+            v_old(i) = -35.88_dp
+            q(i) = 2.0_dp
+            v(i) = -1.08_dp
+            call assertTrue(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
+                            "at its second turn, "//names(i))
+            call assertTrue(functions%stepped_over(0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
+                            "and backwards, "//names(i))
+        end do
+    end subroutine turns_at_ends
 
     subroutine cubic_between()
         !! Exact for a cubic: x = 1 + 2 t - 3 t^2 + 5 t^3 from t = 0 to 2.

@@ -3,8 +3,9 @@ module lagrangia_time_functions
     !! once: a kick, a switch, a kink. What they are functions of is smooth and easily looked
     !! through, where they themselves may be nothing but at one moment.
     use lagrangia_expression, only: apply, expression_t, f_abs, f_atan, f_cosh, f_exp, f_log, &
-                                    f_sgn, f_tanh, kind_function, kind_number, kind_power, &
-                                    kind_quotient, operator(*), operator(**), operator(-)
+                                    f_sgn, f_tanh, kind_function, kind_negation, kind_number, &
+                                    kind_power, kind_quotient, operator(*), operator(**), &
+                                    operator(-)
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -101,8 +102,8 @@ contains
                 kind = peak
                 argument = -apply(f_log, formula%pruned(node%right)**2)
             case (kind_power)
-                if (formula%nodes(node%right)%kind == kind_number) then
-                    if (formula%nodes(node%right)%number%value >= 0.0_dp) return
+                if (is_number(formula, node%right)) then
+                    if (.not. is_negative(formula, node%right)) return
                     argument = -apply(f_log, formula%pruned(node%left)**2)
                 else
                     argument = formula%pruned(node%right)*apply(f_log, formula%pruned(node%left))
@@ -122,9 +123,31 @@ contains
 
         associate (node => formula%nodes(k))
             yes = node%kind == kind_quotient
-            if (node%kind == kind_power) yes = formula%nodes(node%right)%kind == kind_number
+            if (node%kind == kind_power) yes = is_number(formula, node%right)
         end associate
     end function falls_slowly
+
+    pure function is_number(formula, k) result(yes)
+        !! Is node `k` a number, or one with a minus, as the exponent of x^-2 is read?
+        type(expression_t), intent(in) :: formula
+        integer, intent(in) :: k
+        logical :: yes
+
+        associate (node => formula%nodes(k))
+            yes = node%kind == kind_number
+            if (node%kind == kind_negation) yes = formula%nodes(node%left)%kind == kind_number
+        end associate
+    end function is_number
+
+    pure function is_negative(formula, k) result(yes)
+        !! Of a node that is a number: a written one has no sign of its own.
+        type(expression_t), intent(in) :: formula
+        integer, intent(in) :: k
+        logical :: yes
+
+        yes = formula%nodes(k)%kind == kind_negation
+        if (.not. yes) yes = formula%nodes(k)%number%value < 0.0_dp
+    end function is_negative
 
     pure subroutine arguments_at(self, t, values, slopes)
         !! The arguments at a time, and their rates of change.
