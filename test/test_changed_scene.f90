@@ -162,6 +162,8 @@ contains
         call assertEqual(10, ending_start("a.b/c_2.5"), message="a number is no ending")
         call assertEqual(6, ending_start("a.b/c.dat"), message="an ending")
         call assertEqual(4, ending_start("c_2"), message="none")
+        call assertEqual(2, ending_start("c.data"), message="four letters")
+        call assertEqual(8, ending_start("c.datum"), message="five are none")
         call assertEqual(6, ending_start("a.b/c"), message="none, below a folder that has one")
         call assertEqual(8, ending_start("a/b.c/d"), message="none, below a folder below one")
         call change("scene%dt="//repeat("0", 116)//"1", scene)

@@ -33,6 +33,7 @@ contains
         call suite%addTest(TestMethod("steps_too_small_to_move", steps_too_small_to_move))
         call suite%addTest(TestMethod("a_late_clock", a_late_clock))
         call suite%addTest(TestMethod("thin_walls", thin_walls))
+        call suite%addTest(TestMethod("a_jump_of_the_potential", a_jump_of_the_potential))
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
         call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
         call suite%addTest(TestMethod("the_tolerance_that_is_named", the_tolerance_that_is_named))
@@ -218,6 +219,23 @@ contains
                          "V = 'k exp(-((x - c)/w)^2)'"//numbers(i:), outcome)
         end subroutine fly
     end subroutine thin_walls
+
+    subroutine a_jump_of_the_potential()
+        !! No method feels it: that the energy is another behind it says that no digit is right. A
+        !! jump of a millionth of the energy is within what that bears, and so is one not reached.
+        type(outcome_t) :: outcome
+        character(*), parameter :: jump = "system = 'jump', method = 'rk4', dt = 0.1, q = 0.0, "// &
+            "v = 2.0, duration = 3.0 / &lagrangian coordinates = 'x' T = 'x_dot^2/2' V = '"
+
+        call perform(jump//"0.75 sgn(x - 4)' /", outcome)
+        call assertFalse(any(outcome%state%resolved()), "up")
+        call perform(jump//"-0.75 sgn(x - 4)' /", outcome)
+        call assertFalse(any(outcome%state%resolved()), "down")
+        call perform(jump//"1e-6 sgn(x - 4)' /", outcome)
+        call assertTrue(all(outcome%state%resolved()), "a small one")
+        call perform(jump//"0.75 sgn(x - 7)' /", outcome)
+        call assertTrue(all(outcome%state%resolved()), "behind the end")
+    end subroutine a_jump_of_the_potential
 
     subroutine the_time_of_a_slow_event()
         !! From 2**20 rad at 2**-10 rad/s one turns by 2**-10 rad in 1 s: the last digit of the

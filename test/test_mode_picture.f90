@@ -29,6 +29,7 @@ contains
         call suite%addTest(TestMethod("masses_at_one_place_have_no_rod", &
                                       masses_at_one_place_have_no_rod))
         call suite%addTest(TestMethod("a_panel_a_mode", a_panel_a_mode))
+        call suite%addTest(TestMethod("five_panels_in_two_lines", five_panels_in_two_lines))
         call suite%addTest(TestMethod("what_stands_is_drawn_once", what_stands_is_drawn_once))
         call suite%addTest(TestMethod("carts_and_springs_are_drawn", carts_and_springs_are_drawn))
     end function mode_picture_suite
@@ -249,4 +250,46 @@ contains
         call draw("pendulum", [0.0_dp], rows, script)
         call assertTrue(index(script, "set title """//omega//" = 3.132 rad/s""") > 0, script)
     end subroutine a_panel_a_mode
+
+    subroutine five_panels_in_two_lines()
+        !! The fifth stands below the first, above the lower edge.
+        real(dp), allocatable :: rows(:, :)
+        character(:), allocatable :: script
+        real(dp) :: left(5), bottom(5), top(5)
+        integer :: i
+
+        call draw("own", [(0.0_dp, i=1, 5)], rows, script, "&scene system = 'own' dt = 0.1 "// &
+                  "duration = 1 q = 5*0 / &lagrangian coordinates = 'a', 'b', 'c', 'd', 'e' "// &
+                  "T = '(a_dot^2 + b_dot^2 + c_dot^2 + d_dot^2 + e_dot^2)/2' "// &
+                  "V = '(a^2 + 2 b^2 + 3 c^2 + 4 d^2 + 5 e^2)/2' positions = 'A, 1: "// &
+                  "a, 0', 'B, 1: 1 + b, 0', 'C, 1: 2 + c, 0', 'D, 1: 3 + d, 0', 'E, 1: 4 + e, 0' /")
+        if (anyExceptions()) return
+        do i = 1, 5
+            left(i) = margin("set lmargin at screen ", i)
+            bottom(i) = margin("set bmargin at screen ", i)
+            top(i) = margin("set tmargin at screen ", i)
+        end do
+        call assertEqual(spread(top(1), 1, 3), top(2:4), 0.0_dp, "beside each other")
+        call assertTrue(all(left(2:4) > left(1:3)), "from left to right")
+        call assertEqual(left(1), left(5), 0.0_dp, "below the first")
+        call assertTrue(top(5) < bottom(1), "and not over it")
+        call assertTrue(top(1) < 1.0_dp .and. bottom(5) > 0.0_dp, "in the picture")
+        call assertEqual(top(1) - bottom(1), top(5) - bottom(5), 2e-4_dp, "as high")
+    contains
+        function margin(words, which) result(value)
+            !! Behind the words, at their appearance of that number.
+            character(*), intent(in) :: words
+            integer, intent(in) :: which
+            real(dp) :: value
+            integer :: at, k
+
+            value = -1.0_dp
+            at = 1
+            do k = 1, which
+                if (index(script(at:), words) == 0) return
+                at = at + index(script(at:), words) + len(words) - 1
+            end do
+            read (script(at:at + 5), *) value
+        end function margin
+    end subroutine five_panels_in_two_lines
 end module test_mode_picture

@@ -36,6 +36,7 @@ contains
         call suite%addTest(TestMethod("rounding_of_a_turning_force", rounding_of_a_turning_force))
         call suite%addTest(TestMethod("null_spaces_to_rounding", null_spaces_to_rounding))
         call suite%addTest(TestMethod("stiffness_without_symmetry", stiffness_without_symmetry))
+        call suite%addTest(TestMethod("a_sign_of_a_coordinate", a_sign_of_a_coordinate))
     end function quadratic_eigen_suite
 
     subroutine rounding_of_a_turning_force()
@@ -62,6 +63,23 @@ contains
             end do
         end do
     end subroutine rounding_of_a_turning_force
+
+    subroutine a_sign_of_a_coordinate()
+        !! What rounding does to two masses on springs is the same if one is measured to the left.
+        real(dp), parameter :: k(2, 2) = reshape([2.0_dp, -1.0_dp, -1.0_dp, 3.0_dp], [2, 2])
+        real(dp), parameter :: other(2, 2) = reshape([2.0_dp, 1.0_dp, 1.0_dp, 3.0_dp], [2, 2])
+        complex(dp), allocatable :: lambda(:)
+        real(dp), allocatable :: distance(:), as_far(:), moved(:)
+        type(error_t), allocatable :: error
+
+        call quadratic_eigenvalues(m2, 0.1_dp*m2, k, lambda, error, moved, distance)
+        call assertFalse(allocated(error), "to the right")
+        if (allocated(error)) return
+        call quadratic_eigenvalues(m2, 0.1_dp*m2, other, lambda, error, moved, as_far)
+        call assertFalse(allocated(error), "to the left")
+        if (allocated(error)) return
+        call assertEqual(distance, as_far, 1e-6_dp*epsilon(k), "how far")
+    end subroutine a_sign_of_a_coordinate
 
     subroutine null_spaces_to_rounding()
         !! Products of a column and a row of either sign, of which one or two are added; springs

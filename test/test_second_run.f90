@@ -4,8 +4,10 @@ module test_second_run
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_accuracy, only: state_accuracy
+    use lagrangia_cross_check, only: by_other_method
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
+    use lagrangia_events, only: event_box_t
     use lagrangia_final_state, only: final_state_t
     use lagrangia_final_values, only: final_value_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
@@ -51,6 +53,7 @@ contains
         call suite%addTest(TestMethod("a_saddle_that_runs_do_not_resolve", &
                                       a_saddle_that_runs_do_not_resolve))
         call suite%addTest(TestMethod("what_has_grown_at_a_saddle", what_has_grown_at_a_saddle))
+        call suite%addTest(TestMethod("an_end_that_is_elsewhere", an_end_that_is_elsewhere))
     end function second_run_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -366,4 +369,44 @@ contains
             call assertEqual(4.0_dp*share, state(2)%error, 1e-4_dp*share, about)
         end subroutine check
     end subroutine what_has_grown_at_a_saddle
+
+    subroutine an_end_that_is_elsewhere()
+        !! For 1000 s of an oscillation the least tolerance takes more than 100000 evaluations, and
+        !! 1e-12 fewer: that one knows the end only if the run is off by more than 1e-7 of its
+        !! largest values.
+        real(dp), parameter :: off = 3e-7_dp, small = 1e-7_dp
+
+        call assertFalse(known(0.0_dp, 0.0_dp), "where it is")
+        call assertFalse(known(small, small), "near it")
+        call assertFalse(known(-small, -small), "near it, to the other side")
+        call assertTrue(known(off, 0.0_dp), "another place")
+        call assertTrue(known(-off, 0.0_dp), "to the other side")
+        call assertTrue(known(0.0_dp, off), "another velocity")
+        call assertTrue(known(0.0_dp, -off), "a smaller one")
+    contains
+        function known(q, v) result(yes)
+            !! Of a run that ends so far off, of 2 m and 2 m/s.
+            real(dp), intent(in) :: q, v
+            logical :: yes
+            type(oscillator_t) :: oscillator
+            type(event_box_t) :: none(0)
+            type(final_state_t) :: seen
+            type(scene_t) :: scene
+            type(error_t), allocatable :: error
+            real(dp) :: state(3)
+
+            call oscillator%configure([1.0_dp, 1.0_dp, 0.0_dp], error)
+            call assertFalse(allocated(error), "an oscillator")
+            scene%method = "rk4"
+            scene%duration = 1000.0_dp
+            scene%q = [2.0_dp]
+            scene%v = [0.0_dp]
+            seen%t = 1000.0_dp
+            seen%q = [2.0_dp*cos(1000.0_dp) + q]
+            seen%v = [v - 2.0_dp*sin(1000.0_dp)]
+            seen%q_most = [2.0_dp]
+            seen%v_most = [2.0_dp]
+            call by_other_method(scene, oscillator, seen, none, 100000_i8, state, yes)
+        end function known
+    end subroutine an_end_that_is_elsewhere
 end module test_second_run

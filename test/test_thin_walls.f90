@@ -190,6 +190,10 @@ contains
         call assertFalse(turns(-3.0_dp, 1.6_dp, -3.0_dp, -1.6_dp), "to -2.6 and back")
         call assertTrue(turns(-3.0_dp, 19.0_dp, 3.5_dp, -14.0_dp), "to 5.4, and on the way back")
         call assertFalse(over(-1.1e14_dp, 1e14_dp, 1e14_dp), "what no time can resolve")
+        call assertTrue(over(-2.0_dp, 100.0_dp, 1.0_dp), "right behind the start")
+        call assertTrue(over(-100.0_dp, 2.0_dp, 1.0_dp), "right before the end")
+        call assertTrue(functions%stepped_over(0.0_dp, [-2.0_dp], [35.0_dp], 1.0_dp, [6.33_dp], &
+                                               [15.0_dp]), "before two turns, at 1/2 and 7/10")
         call assertTrue(over(-2000.0_dp, 2500.0_dp, 0.0045_dp), "slowly, and from afar")
     contains
         function over(from, to, speed) result(yes)
@@ -293,6 +297,11 @@ contains
             call assertFalse(went_over(functions, 0.0_dp, i*far, [i*21.0_dp, 0.0_dp], 2.0_dp, &
                                        i*far, [-i*21.0_dp, 0.0_dp]), "nor in 2 s")
         end do
+        call find("exp(-x^2 - y^2)", functions)
+        if (anyExceptions()) return
+        call assertTrue(functions%stepped_over(0.0_dp, [-20.0_dp, 3.0_dp], [40.0_dp, 16.0_dp], &
+                                               1.0_dp, [20.0_dp, 3.0_dp], [40.0_dp, -16.0_dp]), &
+                        "at 7 m, bent to the place, by 1 m more at 6 m")
         call find("exp(-x^2) + exp(-y^2)", functions)
         if (anyExceptions()) return
         call assertTrue(went_over(functions, 0.0_dp, [-2.0_dp, -20.0_dp], [4.0_dp, 42.0_dp], &
@@ -307,6 +316,7 @@ contains
         !! A power is never nothing: from \(-10^9\) m to \(-2.1\cdot10^8\) m and back it is more
         !! than \(e^3\) times what it is at both ends, though \(10^{-33}\) of what it is at 0.
         character(*), parameter :: powers(2) = [character(14) :: "1/(1 + x^2)", "(1 + x^2)^(-2)"]
+        !! A pole is no maximum.
         type(place_functions_t) :: functions
         real(dp), parameter :: far(2) = [-1e9_dp, 0.0_dp], v(2) = [3.16e9_dp, 0.0_dp]
         integer :: i
@@ -316,6 +326,11 @@ contains
             if (anyExceptions()) return
             call assertTrue(went_over(functions, 0.0_dp, far, v, 1.0_dp, far, -v), powers(i))
         end do
+        call find("sin(x - 0.1)/(x - 0.1)", functions)
+        if (anyExceptions()) return
+        call assertFalse(functions%stepped_over(0.0_dp, [-2.9_dp, 0.0_dp], [6.2_dp, 0.0_dp], &
+                                                1.0_dp, [3.3_dp, 0.0_dp], [6.2_dp, 0.0_dp]), &
+                         "over a pole")
     end subroutine slow_falls
 
     subroutine turns_at_ends()
@@ -355,6 +370,14 @@ contains
                             "at its second turn, "//names(i))
             call assertTrue(went_over(functions, 0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
                             "and backwards, "//names(i))
+            q_old(i) = 3.0_dp
+            v_old(i) = 9.0_dp
+            q(i) = 17.0_dp
+            v(i) = 19.0_dp
+            call assertFalse(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
+                             "3 + 9 s + 5 s^2 turned before the start, "//names(i))
+            call assertFalse(functions%stepped_over(0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
+                             "or will behind the end, "//names(i))
         end do
     end subroutine turns_at_ends
 

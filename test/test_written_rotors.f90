@@ -34,6 +34,7 @@ contains
         call suite%addTest(TestMethod("t_is_made_of_them", t_is_made_of_them))
         call suite%addTest(TestMethod("what_is_refused", what_is_refused))
         call suite%addTest(TestMethod("their_module", their_module))
+        call suite%addTest(TestMethod("places_that_are_long", places_that_are_long))
     end function written_rotors_suite
 
     subroutine read_disk(group, system, error)
@@ -166,4 +167,37 @@ contains
             call assertTrue(.false., "a line: "//line)
         end subroutine has
     end subroutine their_module
+
+    subroutine places_that_are_long()
+        !! A place that is cut off is no place: of one too long in any coordinate none is told, with
+        !! the masses' formulas.
+        character(:), allocatable :: long
+        integer :: i
+
+        long = "sin(1 x)"
+        do i = 2, 9
+            long = long//" + sin("//achar(iachar("0") + i)//" x)/"//achar(iachar("0") + i)
+        end do
+        call check(long//", 0", "m", "short enough")
+        long = long//" + "//long//" cos(x) + "//long
+        call check(long//", 0", "", "y is too long")
+        call check("0, "//long, "", "z is too long")
+    contains
+        subroutine check(place, mass, about)
+            character(*), intent(in) :: place, mass, about
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(description_t) :: d
+            type(scene_t) :: scene
+
+            call parse_scene("&scene system = 'way', dt = 0.1, duration = 1, q = 0.3 / "// &
+                             "&lagrangian coordinates = 'x [m]' parameters = 'm' V = '0' "// &
+                             "positions = 'bob, m: x, "//place//"' / &way m = 2 /", "way.nml", &
+                             [word_t ::], scene, system, error)
+            call assertFalse(allocated(error), about)
+            if (allocated(error)) return
+            call system%describe(d)
+            call assertEqual(mass, trim(d%points(1)%mass_formula), about)
+        end subroutine check
+    end subroutine places_that_are_long
 end module test_written_rotors
