@@ -192,8 +192,8 @@ contains
         call assertFalse(over(-1.1e14_dp, 1e14_dp, 1e14_dp), "what no time can resolve")
         call assertTrue(over(-2.0_dp, 100.0_dp, 1.0_dp), "right behind the start")
         call assertTrue(over(-100.0_dp, 2.0_dp, 1.0_dp), "right before the end")
-        call assertTrue(functions%stepped_over(0.0_dp, [-2.0_dp], [35.0_dp], 1.0_dp, [6.33_dp], &
-                                               [15.0_dp]), "before two turns, at 1/2 and 7/10")
+        call assertTrue(went_over(functions, 0.0_dp, [-2.0_dp], [35.0_dp], 1.0_dp, [6.33_dp], &
+                                  [15.0_dp]), "before two turns, at 1/2 and 7/10")
         call assertTrue(over(-2000.0_dp, 2500.0_dp, 0.0045_dp), "slowly, and from afar")
     contains
         function over(from, to, speed) result(yes)
@@ -299,8 +299,8 @@ contains
         end do
         call find("exp(-x^2 - y^2)", functions)
         if (anyExceptions()) return
-        call assertTrue(functions%stepped_over(0.0_dp, [-20.0_dp, 3.0_dp], [40.0_dp, 16.0_dp], &
-                                               1.0_dp, [20.0_dp, 3.0_dp], [40.0_dp, -16.0_dp]), &
+        call assertTrue(went_over(functions, 0.0_dp, [-20.0_dp, 3.0_dp], [40.0_dp, 16.0_dp], &
+                                  1.0_dp, [20.0_dp, 3.0_dp], [40.0_dp, -16.0_dp]), &
                         "at 7 m, bent to the place, by 1 m more at 6 m")
         call find("exp(-x^2) + exp(-y^2)", functions)
         if (anyExceptions()) return
@@ -328,8 +328,8 @@ contains
         end do
         call find("sin(x - 0.1)/(x - 0.1)", functions)
         if (anyExceptions()) return
-        call assertFalse(functions%stepped_over(0.0_dp, [-2.9_dp, 0.0_dp], [6.2_dp, 0.0_dp], &
-                                                1.0_dp, [3.3_dp, 0.0_dp], [6.2_dp, 0.0_dp]), &
+        call assertFalse(went_over(functions, 0.0_dp, [-2.9_dp, 0.0_dp], [6.2_dp, 0.0_dp], &
+                                   1.0_dp, [3.3_dp, 0.0_dp], [6.2_dp, 0.0_dp]), &
                          "over a pole")
     end subroutine slow_falls
 
@@ -374,9 +374,9 @@ contains
             v_old(i) = 9.0_dp
             q(i) = 17.0_dp
             v(i) = 19.0_dp
-            call assertFalse(functions%stepped_over(0.0_dp, q_old, v_old, 1.0_dp, q, v), &
+            call assertFalse(went_over(functions, 0.0_dp, q_old, v_old, 1.0_dp, q, v), &
                              "3 + 9 s + 5 s^2 turned before the start, "//names(i))
-            call assertFalse(functions%stepped_over(0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
+            call assertFalse(went_over(functions, 0.0_dp, q, -v, 1.0_dp, q_old, -v_old), &
                              "or will behind the end, "//names(i))
         end do
     end subroutine turns_at_ends

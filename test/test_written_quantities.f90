@@ -185,9 +185,6 @@ contains
         call assertFalse(d%quantities(3)%conserved, "the weight turns it")
         call assertTrue(d%quantities(4)%conserved, "the energy stays")
         call assertTrue(d%quantities(5)%conserved, "the radius stays")
-        call own(circle, "m = 2 k = 0 c = 1e-20", system, d)
-        call assertFalse(d%quantities(3)%conserved, "a weight that only slow motions show")
-        call assertTrue(all(d%quantities(4:5)%conserved), "energy and radius stay")
     end subroutine constraints_are_kept
 
     subroutine drift_has_a_size()

@@ -60,22 +60,23 @@ contains
         !! it is a number, with velocities that keep the constraints: beside the terms that add up
         !! to it, or, where the terms of a force cancel, beside what rounding of the state makes of
         !! it. Constraints hold near the origin at most, and no state far away is tried with them.
-        !! What acts at no such state is looked for in the formulas, and a force that only slow
-        !! motions show, beside what adds up to a centripetal one, at these.
+        !! What acts at no such state is looked for in the formulas.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
         type(expression_t), intent(in) :: lagrangian       !! L, of t, q, q_dot, parameters
         type(expression_t), intent(in) :: forces(:)        !! Q of each coordinate
         type(expression_t), intent(in) :: constraints(:)   !! zero along the motion
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
-        real(dp), dimension(system%ndof) :: q, v
+        real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
+        real(dp), dimension(system%ndof) :: q, v, a
+        real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
+        real(dp), dimension(program%outputs) :: rate, terms, noise
         logical :: known(program%outputs)
         type(expression_t) :: formulas(1 + size(forces) + size(constraints))
         real(dp), allocatable :: local(:, :)
         integer :: used(program%outputs)
         real(dp) :: t
-        real(dp), parameter :: slower(2) = [1e-6_dp, 1e-12_dp]  !! times the trial's velocity
-        integer :: i, k, last, n
+        integer :: k, last, n
 
         allocate (conserved(program%outputs), source=.true.)
         if (size(conserved) == 0) return
@@ -95,40 +96,17 @@ contains
                 q = local(2:1 + n, k - last)
             end if
             call keep_constraints(system, t, q, v)
-            call judge(system, program, t, q, v, k > near_states, conserved, known)
+            call system%accelerations(t, q, v, a)
+            call rates(program, t, q, v, a, rate, terms)
+            known = ieee_is_finite(rate) .and. ieee_is_finite(terms) .and. all_finite(a)
             where (known) used = used + 1
-            if (k > near_states) cycle
-            do i = 1, size(slower)
-                call trial_state(k, t, q, v)
-                v = slower(i)*v
-                call keep_constraints(system, t, q, v)
-                call judge(system, program, t, q, v, .true., conserved, known)
-            end do
+            noise = 0.0_dp
+            if (k > near_states) call find_noise(system, program, t, q, v, rate, noise)
+            conserved = conserved .and. (abs(rate) <= max(rounding*terms, amplified*noise) .or. &
+                                         .not. known)
         end do
         conserved = conserved .and. used > 0
     end subroutine find_conserved
-
-    pure subroutine judge(system, program, t, q, v, is_noisy, conserved, known)
-        !! The rates at a state.
-        class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
-        type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
-        real(dp), intent(in) :: t, q(:), v(:)              !! the state
-        logical, intent(in) :: is_noisy                    !! terms of forces may cancel there
-        logical, intent(inout) :: conserved(:)             !! false where a quantity changes
-        logical, intent(out) :: known(:)                   !! its rate is a number
-        real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
-        real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
-        real(dp), dimension(program%outputs) :: rate, terms, noise
-        real(dp) :: a(size(q))
-
-        call system%accelerations(t, q, v, a)
-        call rates(program, t, q, v, a, rate, terms)
-        known = ieee_is_finite(rate) .and. ieee_is_finite(terms) .and. all_finite(a)
-        noise = 0.0_dp
-        if (is_noisy) call find_noise(system, program, t, q, v, rate, noise)
-        conserved = conserved .and. (abs(rate) <= max(rounding*terms, amplified*noise) .or. &
-                                     .not. known)
-    end subroutine judge
 
     pure subroutine find_noise(system, program, t, q, v, rate, noise)
         !! The changes of the rates where the state is another one by a few roundings.
