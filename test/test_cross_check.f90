@@ -33,6 +33,7 @@ contains
         call suite%addTest(TestMethod("steps_too_small_to_move", steps_too_small_to_move))
         call suite%addTest(TestMethod("a_late_clock", a_late_clock))
         call suite%addTest(TestMethod("thin_walls", thin_walls))
+        call suite%addTest(TestMethod("small_motions_far_from_0", small_motions_far_from_0))
         call suite%addTest(TestMethod("a_jump_of_the_potential", a_jump_of_the_potential))
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
         call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
@@ -180,6 +181,19 @@ contains
         call check_claim(outcome%state(1), -4.15880072792298750e-2_dp)
     end subroutine a_late_clock
 
+    subroutine small_motions_far_from_0()
+        !! A pendulum that swings by \(3\cdot10^{-7}\) about \(2\pi\) for 12 s. What is not known
+        !! of its speed is a share of the swing, not of \(2\pi\).
+        type(outcome_t) :: outcome
+        real(dp), parameter :: turn = 2*acos(-1.0_dp), q = 6.283185_dp
+
+        call perform("system = 'pendulum', method = 'gauss16', tolerance = 1e-12, v = 0.0, "// &
+                     "q = 6.283185, duration = 12 / &pendulum l = 1.0, g = 1.0 /", outcome)
+        call check_claim(outcome%state(1), turn + (q - turn)*cos(12.0_dp))
+        call check_claim(outcome%state(2), (turn - q)*sin(12.0_dp))
+        call assertLessThan(outcome%state(1)%error, 1e-10_dp, message="ten digits of the angle")
+    end subroutine small_motions_far_from_0
+
     subroutine thin_walls()
         !! Three runs by steps of `dt` go through a wall that is thinner than these. The other
         !! method takes too long for its least tolerance there, but a larger one shows it. The
@@ -189,22 +203,18 @@ contains
         call fly("method='midpoint', dt=0.04683825712897181, every=10, t0=0.0, "// &
                  "duration=4.683825712897181, q=-0.665290822223365, "// &
                  "v=1.1912365131686262 / &wall k=2.1515563376144367, "// &
-                 "c=3.4189866896483863, w=1.5331585170051832e-05 /", &
-                 outcome)
+                 "c=3.4189866896483863, w=1.5331585170051832e-05 /", outcome)
         call check_claim(outcome%state(1), 1.92370534378386871_dp)
         call check_claim(outcome%state(2), -1.19123651316862623_dp)
         call fly("method='gauss16', dt=0.0630500219450674, every=100, t0=0.0, "// &
                  "duration=6.30500219450674, q=-0.8414250528170298, "// &
                  "v=2.078562630819623 / &wall k=1.2737874430963456, "// &
-                 "c=4.763013816707627, w=1.4296489442301077e-05 /", &
-                 outcome)
+                 "c=4.763013816707627, w=1.4296489442301077e-05 /", outcome)
         call check_claim(outcome%state(1), 12.2639053310792229_dp)
         call fly("method='gauss16', tolerance=1.19e-06, samples=10, "// &
                  "t0=737.1132609808698, duration=5.240407297748967, "// &
-                 "q=-0.5676824657977552, "// &
-                 "v=1.0868784147027635 / &wall k=0.3160324404212109, "// &
-                 "c=5.606184982205924, w=0.0002628477226321737 /", &
-                 outcome)
+                 "q=-0.5676824657977552, v=1.0868784147027635 / &wall k=0.3160324404212109, "// &
+                 "c=5.606184982205924, w=0.0002628477226321737 /", outcome)
         call check_claim(outcome%state(1), 5.12800311037643477_dp)
     contains
         subroutine fly(numbers, outcome)

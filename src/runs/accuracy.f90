@@ -83,10 +83,10 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! why a finer run failed
         type(final_state_t) :: half, quarter
         real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
-        real(dp), allocatable :: clock(:)
+        real(dp), allocatable :: by_motion(:), clock(:)
         type(part_t), target :: part
         real(dp) :: shrinking, step
-        logical :: known
+        logical :: known, uneven
 
         step = (seen%t - scene%t0)/max(steps, 1_i8)
         part%whole => progress
@@ -118,8 +118,14 @@ contains
                                   rounding + clock)
         call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
                              other, known)
-        if (known) state%error = agreement(first, second, third, other, most, shrinking, &
-                                           scene%tolerance > 0.0_dp) + rounding
+        if (known) then
+            uneven = scene%tolerance > 0.0_dp
+            state%error = agreement(first, second, third, other, most, shrinking, uneven)
+            by_motion = agreement(first, second, third, other, size_of_motion(scene, system, &
+                                  seen, most), shrinking, uneven)
+            state(2:)%error = min(state(2:)%error, by_motion(2:))
+            state%error = state%error + rounding
+        end if
         if (scene%tolerance > 0.0_dp) state%error = max(state%error, rounding + &
                                                         rounding_of_end(scene, system, seen))
         if (lingers(system, seen, rests) .and. &
@@ -160,6 +166,26 @@ contains
         end if
         share = (error + of_start)*exp(min(rate*(seen%t - first), 300.0_dp))
     end function grown_since
+
+    pure function size_of_motion(scene, system, seen, most) result(motion)
+        !! Of each number of the state: what an error of the motion is a share of. Of a coordinate
+        !! it is no more than its way, by its largest speed and by the accelerations at both ends:
+        !! a pendulum that swings a little about 2 pi is known as well as one about 0.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(final_state_t), intent(in) :: seen
+        real(dp), intent(in) :: most(:)  !! largest magnitudes
+        real(dp) :: motion(size(most)), a(system%ndof), a_end(system%ndof), way(system%ndof)
+        real(dp), parameter :: least = 1e-12_dp  ! of a coordinate, far above its rounding
+
+        motion = most
+        call system%accelerations(scene%t0, scene%q, scene%v, a)
+        call system%accelerations(seen%t, seen%q, seen%v, a_end)
+        associate (n => system%ndof, t => seen%t - scene%t0)
+            way = abs(seen%q - scene%q) + t*most(2 + n:) + t**2*(abs(a) + abs(a_end))
+            where (way < most(2:1 + n)) motion(2:1 + n) = max(way, least*most(2:1 + n))
+        end associate
+    end function size_of_motion
 
     pure function rounding_of_clock(system, seen, t_most) result(lost)
         !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion
@@ -247,7 +273,7 @@ contains
         !! Of steps that follow a tolerance that error is no less than the number's own \(d_2\).
         real(dp), intent(in) :: first(:), second(:), third(:)  !! ends of the three runs
         real(dp), intent(in) :: other(:)                       !! by the other method
-        real(dp), intent(in) :: most(:)                        !! largest magnitudes
+        real(dp), intent(in) :: most(:)                        !! largest magnitudes, or ways
         real(dp), intent(in) :: shrinking  !! of the error from one run to the next, expected
         logical, intent(in) :: uneven      !! steps that follow a tolerance
         real(dp) :: error(size(first))
