@@ -140,7 +140,7 @@ contains
             call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
             self%evaluations = self%evaluations + 11
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
-            if (scaled <= 1.0_dp) then
+            if (self%places%count > 0 .and. scaled <= 1.0_dp) then
                 associate (n => system%ndof)
                     call self%places%try_step(self%t_old, self%y0(:n), self%y0(n + 1:), &
                                               self%t_old + h, self%y(:n), self%y(n + 1:), over)

@@ -220,7 +220,7 @@ contains
                 self%evaluations = self%evaluations + 1
                 good = seen_whole(self%s%n, self%s%room(self%s%first, modes), self%weight, &
                                   self%s%start, self%s%end)
-                if (good) then
+                if (good .and. self%places%count > 0) then
                     call self%places%try_step(self%t_new, self%s%q, self%s%v, to, &
                                               self%s%q_end, self%s%v_end, over)
                     good = .not. over

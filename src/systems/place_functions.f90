@@ -118,7 +118,7 @@ contains
 
     pure subroutine try_step(self, t_old, q_old, v_old, t, q, v, over)
         !! Has a step gone over a place where a function acts? Arguments that hardly change over it
-        !! need no second look.
+        !! need no second look. It allocates: to be called where there are functions.
         class(place_functions_t), intent(inout) :: self  !! knows the end of the step before
         real(dp), intent(in) :: t_old, q_old(:), v_old(:)  !! s; the state at the start
         real(dp), intent(in) :: t, q(:), v(:)              !! s; the state at the end
@@ -127,7 +127,6 @@ contains
         real(dp) :: state(1 + 2*size(q))
 
         over = .false.
-        if (self%count == 0) return
         if (abs(t_old - self%t_known) > 0.0_dp) then
             state = [t_old, q_old, v_old]
             call self%programs(rates)%evaluate(state, before)
