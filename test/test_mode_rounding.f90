@@ -60,6 +60,19 @@ contains
         call find_rounding(system, modes, rounding)
     end subroutine solve
 
+    subroutine read_own(group, system)
+        !! Two coordinates, x and y.
+        character(*), intent(in) :: group  !! parameters and L, and the parameters' values
+        class(system_t), allocatable, intent(out) :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+
+        call parse_scene("&scene system = 'own' q = 0, 0 dt = 0.01 duration = 1 / &lagrangian "// &
+                         "coordinates = 'x', 'y' "//group//" /", "own.nml", [word_t ::], scene, &
+                         system, error)
+        call assertFalse(allocated(error), message="scene")
+    end subroutine read_own
+
     subroutine a_hoop_near_its_critical_rate()
         !! \(\omega^2 = g/r - \Omega^2\), both known to half an epsilon: from 1e-1 to 1e-14 of
         !! them left, the error is never above what is said, and that is at most 8 epsilon of
@@ -125,21 +138,17 @@ contains
         !! \(m_1\) on a spring k, a spring \(\kappa \gg k\) from it to \(m_2\): the slow mode loses
         !! the digits of \(\kappa/k\), the fast one none. Judged against the roots of the
         !! characteristic equation in quadruple precision.
-        type(scene_t) :: scene
         type(modes_t) :: modes
         type(mode_rounding_t) :: rounding
         type(error_t), allocatable :: error
         class(system_t), allocatable :: system
-        type(word_t) :: none(0)
         real(dp) :: stiff, k, values(4)
         real(quad) :: half, root, true(2)
         integer :: i, j
 
-        call parse_scene("&scene system = 'pair' q = 0, 0 dt = 0.01 duration = 1 / "// &
-            "&lagrangian coordinates = 'x', 'y' parameters = 'm_1', 'm_2', 'k', 'kappa' "// &
-            "L = '1/2 m_1 x_dot^2 + 1/2 m_2 y_dot^2 - k/2 x^2 - kappa/2 (y - x)^2' / "// &
-            "&pair m_1 = 1, m_2 = 1, k = 1, kappa = 1 /", "pair.nml", none, scene, system, error)
-        call assertFalse(allocated(error), message="scene")
+        call read_own("parameters = 'm_1', 'm_2', 'k', 'kappa' "// &
+                      "L = '1/2 m_1 x_dot^2 + 1/2 m_2 y_dot^2 - k/2 x^2 - kappa/2 (y - x)^2' / "// &
+                      "&own m_1 = 1, m_2 = 1, k = 1, kappa = 1", system)
         do i = 1, 200
             stiff = uniform(0.0_dp, 12.0_dp)
             k = uniform(0.5_dp, 2.0_dp)
@@ -224,18 +233,14 @@ contains
         !! \(m\ddot x = B\dot y - kx,\; m\ddot y = -B\dot x\): of the mode \((0, 1)/\sqrt m\) that
         !! stays a square is not seen below \(16n\epsilon\) of k/m, the lesser of k/m and
         !! \(k/m + B^2/m^2\).
-        type(scene_t) :: scene
         type(modes_t) :: modes
         type(mode_rounding_t) :: rounding
         type(error_t), allocatable :: error
         class(system_t), allocatable :: system
-        type(word_t) :: none(0)
 
-        call parse_scene("&scene system = 'field' q = 0, 0 dt = 0.01 duration = 1 / "// &
-            "&lagrangian coordinates = 'x', 'y' parameters = 'm', 'k', 'B' "// &
-            "L = 'm/2 (x_dot^2 + y_dot^2) + B y_dot x - k/2 x^2' / "// &
-            "&field m = 4, k = 3, B = 5 /", "field.nml", none, scene, system, error)
-        call assertFalse(allocated(error), message="scene")
+        call read_own("parameters = 'm', 'k', 'B' "// &
+                      "L = 'm/2 (x_dot^2 + y_dot^2) + B y_dot x - k/2 x^2' / "// &
+                      "&own m = 4, k = 3, B = 5", system)
         call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
         call assertFalse(allocated(error), message="modes")
         call find_rounding(system, modes, rounding)

@@ -80,20 +80,12 @@ contains
     function print_heavy() result(status)
         !! To a file; 1 if it fails.
         integer :: status
-        type(command_line_t) :: line
         type(error_t), allocatable :: error
-        type(word_t) :: words(6)
 
         status = 1
         call send_stdout_to(new_folder("modes")//"/out")
-        words(1)%text = "modes"
-        words(2)%text = "oscillator"
-        words(3)%text = "--set"
-        words(4)%text = "oscillator%m=1e20"
-        words(5)%text = "--set"
-        words(6)%text = "oscillator%k=1e20"
-        call parse_words(words, options, line, error)
-        if (.not. allocated(error)) call modes_command(line, error)
+        call modes_of("oscillator", [character(17) :: "oscillator%m=1e20", "oscillator%k=1e20"], &
+                      error)
         if (allocated(error)) return
         call flush_console()
         status = 0
@@ -102,25 +94,36 @@ contains
     function print_modes() result(status)
         !! To a file; 1 if it fails.
         integer :: status
-        type(command_line_t) :: line
         type(error_t), allocatable :: error
-        type(word_t) :: words(4)
         integer :: i
 
         status = 1
         call send_stdout_to(new_folder("modes")//"/out")
-        words(1)%text = "modes"
-        words(2)%text = "double_pendulum"
-        words(3)%text = "--set"
         do i = 1, 20
-            words(4)%text = "double_pendulum%l1=0."//to_text(20 + i)
-            call parse_words(words, options, line, error)
-            if (.not. allocated(error)) call modes_command(line, error)
+            call modes_of("double_pendulum", ["double_pendulum%l1=0."//to_text(20 + i)], error)
             if (allocated(error)) return
         end do
         call flush_console()
         status = 0
     end function print_modes
+
+    subroutine modes_of(name, settings, error)
+        !! `lagrangia modes NAME --set SETTING ...`.
+        character(*), intent(in) :: name, settings(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t) :: line
+        type(word_t) :: words(2 + 2*size(settings))
+        integer :: i
+
+        words(1)%text = "modes"
+        words(2)%text = name
+        do i = 1, size(settings)
+            words(1 + 2*i)%text = "--set"
+            words(2 + 2*i)%text = trim(settings(i))
+        end do
+        call parse_words(words, options, line, error)
+        if (.not. allocated(error)) call modes_command(line, error)
+    end subroutine modes_of
 
     subroutine swings()
         !! \(\omega^2 = g/\ell\), a tenth of the shape; in the two modes of the double pendulum with

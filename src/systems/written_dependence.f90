@@ -31,16 +31,16 @@ contains
         type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
+        real(dp), allocatable :: values(:)  ! of all symbols: those of the motion do not count
         integer :: i, j, n
 
         n = system%ndof
+        values = [spread(0.0_dp, 1, 1 + 2*n), system%p]
         system%told_by_formulas = .true.
         call new_time_functions(system%time_functions, expressions%lagrangian, expressions%forces, &
-                                expressions%constraints, [spread(0.0_dp, 1, 1 + 2*n), system%p], &
-                                1 + 2*n)
+                                expressions%constraints, values, 1 + 2*n)
         call new_place_functions(system%place_functions, expressions%lagrangian, &
-                                 expressions%forces, expressions%constraints, &
-                                 [spread(0.0_dp, 1, 1 + 2*n), system%p], n)
+                                 expressions%forces, expressions%constraints, values, n)
         power = whole(0)
         do i = 1, n
             q = short(expressions%forces(i), system%p, expressions%symbols)
