@@ -31,7 +31,8 @@ contains
         type(written_expressions_t), intent(in) :: expressions  !! L, Q, constraints, their symbols
         type(written_motion_t), intent(in) :: motion         !! what follows from L and Q
         type(expression_t) :: power, q
-        real(dp), allocatable :: values(:)  ! of all symbols: those of the motion do not count
+        real(dp) :: values(1 + 2*system%ndof + size(system%p))
+        ! of all symbols: those of the motion do not count
         integer :: i, j, n
 
         n = system%ndof
